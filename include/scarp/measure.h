@@ -142,7 +142,8 @@ Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const 
 /// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders are
 /// {index of the point, 0}; on_row is called once, with all points. Duplicates are first removed by the given policy.
 /// The unit of coverage_tolerance is the mean distance between points, √(area / points). Gaps are open edges within the
-/// convex hull (see MeasureOptions::inlets). Same failures and cost as measure(); kUsage for MeasureOptions::tolerance.
+/// convex hull (see MeasureOptions::inlets). MeasureOptions::tolerance has one for each point, which an error may
+/// exceed by the judge's own rounding, 1e-12 of the heights. Same failures and cost as measure().
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

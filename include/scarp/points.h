@@ -16,9 +16,11 @@
 
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
+#include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 #include "scarp/simplify.h"
+#include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
 
@@ -62,6 +64,24 @@ struct SimplifiedPoints {
 /// with vertices without a height expected O(n log n) for n points.
 Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points);
 
+/// A lake that level_lakes() made.
+struct PointLake {
+  std::string name;           ///< name of its outer ring
+  double level = 0;           ///< NaN for a lake that lies beyond the points: it is omitted
+  std::uint64_t dropped = 0;  ///< number of points in it given up
+};
+
+/// Makes lakes of polygons, given as rings: drops the points in them, except those of lines, and adds the rings, holes
+/// included, as lines at one height, so that all triangles of a lake are level. That height is a percentile, 0 … 100,
+/// of the Delaunay triangulation of the points given, along the rings. To be called before add_lines(). Fails with
+/// kInput for points that have no surface. Cost: expected O(n log n).
+Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double percentile, PointSet& points);
+
+/// Unit normals of the Delaunay triangulation of the points at the vertices of a mesh in their coordinates, as
+/// Mesh::normals: by differences of heights over the mean distance between points; near the hull those of the mesh's
+/// triangles around, by area. Fails with kInput for points that have no surface. Cost: expected O(n log n).
+Result<std::vector<float>> point_normals(const PointSet& points, const Mesh& mesh);
+
 /// The result of cut_to_boundary().
 struct BoundaryCut {
   std::uint64_t points_outside = 0;  ///< number of points given up
@@ -80,6 +100,13 @@ Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double toleranc
 /// Drops the points outside the polygons, given as rings, and all lines; returns how many points. For the judge of a
 /// mesh with such a boundary: see MeasureOptions::cutline.
 std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points);
+
+/// A tolerance for each point, as PointOptions::tolerances: t in a region of tolerance t, t + (beyond - t) · min(1, d /
+/// falloff) at a distance d from it, in units of x and y; with a falloff of 0 `beyond` outside. The smallest of several
+/// regions counts. Tolerances are rounded down to float32. `found`: for each region, true if any point has a smaller
+/// tolerance by it; may be null. REQUIRES: falloff, beyond >= 0. Cost: O(points · (1 + edges near the point)).
+std::vector<float> region_tolerances(std::span<const Region> regions, const PointSet& points, double falloff,
+                                     double beyond, std::vector<bool>* found = nullptr);
 
 /// The goals, and how to reach them. At least one of the goals; the first that is reached ends the run.
 struct PointOptions {
@@ -102,6 +129,10 @@ struct PointOptions {
   /// lattice of 2^22 steps or more over the extent. A max error of 0, or one that the rounding of heights to float32
   /// uses up, allows fast effort only. DEFAULT: normal effort.
   Quality quality = {};
+  /// |mesh − z| <= tolerance at every point, besides max_error: one for each point, at least 0; +infinity: none. For
+  /// points at one place that of the one that counts, with kMean the first. Needs max_error and no budget. Borrowed.
+  /// DEFAULT: empty.
+  std::span<const float> tolerances = {};
   Run run = {};  ///< threads, progress, and a limit of the time
 };
 
@@ -125,16 +156,16 @@ struct PointOptions {
 /// edges where the other points allow it; the rest is counted (`flat`). Points of lines that the lattice cannot keep
 /// apart share a vertex, and count all the same.
 ///
-/// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
-/// given, for the positions as they are in the mesh. Vertices are points, except free ones (high and max effort,
-/// goals for shapes) and corners of a boundary.
-/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a boundary_length that is
-/// not above 0, a budget or a boundary_length with lines, a budget with goals for shapes or such goals out of range,
-/// the dominant order), with kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on
-/// one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to each other than
-/// about 2^-30 of the extent, which are named, as is the far point that makes the extent so large), with kPromise where
-/// float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points, with boundary_length
-/// O(n log n); some 50 to 60 bytes a point in addition to the points themselves.
+/// Guarantees that |mesh − z| <= max_error, and the point's tolerance, at every point that is not given up as a
+/// duplicate, at its coordinates as given, for the positions as they are in the mesh. Vertices are points, except free
+/// ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage (no goal, a max_error out
+/// of range, a budget below what the hull needs, a boundary_length that is not above 0, a budget or a boundary_length
+/// with lines, a budget with goals for shapes or such goals out of range, tolerances of another number than the points,
+/// below 0, NaN or with a budget, the dominant order), with kInput (lines that meet with unlike heights, which are
+/// named, fewer than 3 places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two
+/// points nearer to each other than about 2^-30 of the extent, which are named, as is the far point that makes the
+/// extent so large), with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m)
+/// for n points, with boundary_length O(n log n); some 50 to 60 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

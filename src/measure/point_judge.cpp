@@ -5,6 +5,8 @@
 // result never depends on threads.
 #include "measure/point_judge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,12 +31,14 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Result<void> check_options(const MeasureOptions& options) {
+Result<void> check_options(const PointSet& points, const MeasureOptions& options) {
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance))
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of mean point distances");
-  if (!options.tolerance.empty() || options.tolerance_source != nullptr)
+  if (options.tolerance_source != nullptr)
+    return fail(ErrorKind::kUsage, "tolerances of scattered points are in memory: use MeasureOptions::tolerance");
+  if (!options.tolerance.empty() && options.tolerance.size() != points.size())
     return fail(ErrorKind::kUsage,
-                "scattered points have no tolerances of their own: leave MeasureOptions::tolerance out");
+                fmt::format("{} tolerances for {} points: give one for each", options.tolerance.size(), points.size()));
   return {};
 }
 
@@ -78,9 +82,11 @@ class Judge {
   /// Judges points one after the other, which should be near each other in the plane.
   class Run {
    public:
-    explicit Run(const Judge& judge, double bound) : judge_(judge), bound_(bound) {}
+    explicit Run(const Judge& judge) : judge_(judge) {}
 
-    Verdict judge(std::size_t point) {
+    /// Errors near the bound are exact.
+    Verdict judge(std::size_t point, double bound) {
+      bound_ = bound;
       const std::size_t source = judge_.source_of(point);
       const double x = judge_.points_.x[source] - judge_.mesh_.origin[0];
       const double y = judge_.points_.y[source] - judge_.mesh_.origin[1];
@@ -138,7 +144,7 @@ class Judge {
     }
 
     const Judge& judge_;
-    double bound_, largest_ = 0;
+    double bound_ = HUGE_VAL, largest_ = 0;
     int col_ = -1, row_ = -1;
     std::vector<Entry> entries_;
   };
@@ -182,6 +188,29 @@ class Judge {
   const Mesh& mesh_;
   double tolerance_;
   BucketGrid grid_;
+};
+
+/// The bounds of points. The judge's own arithmetic rounds, which tolerances allow for.
+class PointBounds {
+ public:
+  PointBounds(const SnappedPoints& snapped, const MeasureOptions& options)
+      : for_all_(options.collect_above.value_or(HUGE_VAL)), tolerances_(options.tolerance) {
+    for (const double z : snapped.z) largest_ = std::max(largest_, std::abs(z));
+  }
+
+  double at(std::uint32_t source) const { return tolerances_.empty() ? for_all_ : std::min(for_all_, allowed(source)); }
+  bool is_over_tolerance(std::uint32_t source, double error) const {
+    return !tolerances_.empty() && std::abs(error) > allowed(source);
+  }
+
+ private:
+  double allowed(std::uint32_t source) const {
+    const double tolerance = double{tolerances_[source]};
+    return tolerance + 1e-12 * (tolerance + largest_);
+  }
+
+  double for_all_, largest_ = 0;
+  std::span<const float> tolerances_;
 };
 
 /// The polygons at which the surface ends: those of the points, else of the options.
@@ -262,7 +291,7 @@ void summarize(std::span<const double> errors, Measurement& result) {
 Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options) {
   SCARP_RETURN_IF_ERROR(check_mesh(mesh));
-  SCARP_RETURN_IF_ERROR(check_options(options));
+  SCARP_RETURN_IF_ERROR(check_options(points, options));
   ProgressGate gate(options.run.progress);
   const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 
@@ -296,6 +325,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   const double tolerance = options.coverage_tolerance * std::sqrt(area / places);
   const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
+  const PointBounds bounds(snapped, options);
   // In the order of the lattice, so that sums do not depend on the order of the points.
   std::vector<double> errors(judge.size(), kNone);
   std::vector<std::uint32_t> triangles(options.collect_above ? judge.size() : 0);
@@ -306,9 +336,9 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
     parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
       const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
-      Judge::Run run(judge, options.collect_above.value_or(HUGE_VAL));
+      Judge::Run run(judge);
       for (std::size_t point = begin; point < end; ++point) {
-        const Verdict verdict = run.judge(point);
+        const Verdict verdict = run.judge(point, bounds.at(judge.source_of(point)));
         errors[point] = verdict.error;
         if (options.collect_above) triangles[point] = verdict.triangle;
       }
@@ -319,10 +349,11 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     const std::uint32_t source = judge.source_of(point);
     const double error = errors[point];
     result.uncovered += std::isnan(error);
+    result.over_tolerance += bounds.is_over_tolerance(source, error);
     if (!options.collect_above) continue;
     if (std::isnan(error)) {
       offenders.add_uncovered(source);
-    } else if (std::abs(error) > *options.collect_above) {
+    } else if (std::abs(error) > bounds.at(source)) {
       offenders.add(triangles[point], source, error);
     }
   }

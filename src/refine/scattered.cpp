@@ -145,11 +145,12 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points,
 }
 
 ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<const double> heights,
-                                         ScatteredDomain& domain, double threshold)
+                                         ScatteredDomain& domain, double threshold, std::span<const double> bounds)
     : points_(points),
       heights_(heights),
       domain_(domain),
       threshold_(threshold),
+      bounds_(bounds),
       first_(domain.tin.triangle_count(), kNone),
       next_(points.size(), kNone),
       worst_(domain.tin.triangle_count(), kNone) {
@@ -173,8 +174,7 @@ ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<
     ++inside_;
     Wedge wedge = wedge_of(t, tin.origin(3 * t));
     for (std::uint32_t point = first_[t]; point != kNone; point = next_[point]) {
-      const Point p = points.at[point];
-      wedge.offer(std::abs(wedge.plane.height_at(p) - points.z[point]), p, point);
+      wedge.offer(error_of(wedge, point), points.at[point], point);
       ++scanned_;
     }
     settle(wedge);
@@ -200,14 +200,15 @@ ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, const std::
 }
 
 bool ScatteredRefinement::exceeds(const Wedge& wedge, std::uint32_t point) const {
-  return exceeds_exactly(wedge.corners, wedge.heights, points_.at[point], points_.z[point], threshold_);
+  return exceeds_exactly(wedge.corners, wedge.heights, points_.at[point], points_.z[point],
+                         bounds_.empty() ? threshold_ : bounds_[point]);
 }
 
 /// Queues the triangle with its worst point, if that exceeds the threshold as a real number.
 void ScatteredRefinement::settle(const Wedge& wedge) {
   ++dealt_;
   const Triangle t = wedge.triangle;
-  const double guard = wedge.plane.guard, error = wedge.worst.error;
+  const double guard = guard_of(wedge), error = wedge.worst.error;
   const auto queue = [&](const Candidate& candidate, std::uint32_t point) {
     queue_.set(t, candidate);
     worst_[t] = point;
@@ -221,7 +222,7 @@ void ScatteredRefinement::settle(const Wedge& wedge) {
   doubtful.worst_point = kNone;
   for (std::uint32_t point = first_[t]; point != kNone; point = next_[point]) {
     const Point p = points_.at[point];
-    const double near = std::abs(wedge.plane.height_at(p) - points_.z[point]);
+    const double near = error_of(wedge, point);
     if (near >= threshold_ - guard && is_worse({near, p}, doubtful.worst) && exceeds(wedge, point))
       doubtful.offer(near, p, point);
   }
@@ -258,7 +259,7 @@ void ScatteredRefinement::deal(Vertex v) {
         if (turns < wedges_.size()) {
           next_[point] = first_[wedge->triangle];
           first_[wedge->triangle] = point;
-          wedge->offer(std::abs(wedge->plane.height_at(p) - points_.z[point]), p, point);
+          wedge->offer(error_of(*wedge, point), p, point);
         }
         ++scanned_;
       }

@@ -59,13 +59,15 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points,
 class ScatteredRefinement {
  public:
   /// Deals out all points. `heights`: the height of a point as a vertex (its z, or that rounded to float32), by point.
-  /// All arguments stay alive and are changed by no other code.
+  /// `bounds`: the threshold of each point, at most `threshold`; empty: that for all. All arguments stay alive and are
+  /// changed by no other code.
   ScatteredRefinement(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                      double threshold);
+                      double threshold, std::span<const double> bounds = {});
 
   /// No point exceeds the threshold any more.
   bool done() const { return queue_.empty(); }
-  /// Error of the point to be inserted next; the threshold if done().
+  /// Error of the point to be inserted next, with a bound of its own raised by what that is below the threshold; the
+  /// threshold if done().
   double worst_error() const { return done() ? threshold_ : queue_.candidate(queue_.worst()).error; }
   bool is_full() const { return domain_.tin.triangle_count() > kNone / 3 - 2; }
   /// How many triangles of the domain insert_worst() would add. REQUIRES: !done().
@@ -120,6 +122,15 @@ class ScatteredRefinement {
 
   void deal(Vertex v);
   void settle(const Wedge& wedge);
+  /// The error of a point in its triangle, as compared with the threshold.
+  double error_of(const Wedge& wedge, std::uint32_t point) const {
+    const double error = std::abs(wedge.plane.height_at(points_.at[point]) - points_.z[point]);
+    return bounds_.empty() ? error : error + (threshold_ - bounds_[point]);
+  }
+  /// By how much error_of() may be off.
+  double guard_of(const Wedge& wedge) const {
+    return bounds_.empty() ? wedge.plane.guard : wedge.plane.guard + 0x1p-50 * threshold_;
+  }
   bool exceeds(const Wedge& wedge, std::uint32_t point) const;
   Wedge wedge_of(Triangle t, Vertex apex) const;
   Wedge wedge_of(Triangle t, const std::array<Vertex, 3>& corners) const;
@@ -130,6 +141,7 @@ class ScatteredRefinement {
   std::span<const double> heights_;
   ScatteredDomain& domain_;
   double threshold_;
+  std::span<const double> bounds_;
   CandidateQueue queue_;
   std::vector<std::uint32_t> first_;  // by triangle: its list, kNone if it is empty
   std::vector<std::uint32_t> next_;   // by point: the next one in its list

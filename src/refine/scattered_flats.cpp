@@ -76,9 +76,9 @@ class ScatteredRefinement::FlatRule final : public FlipRule {
 
  private:
   bool breaks(const Wedge& wedge, std::uint32_t point) const {
-    const double error = std::abs(wedge.plane.height_at(own_.points_.at[point]) - own_.points_.z[point]);
-    if (error < own_.threshold_ - wedge.plane.guard) return false;
-    return error > own_.threshold_ + wedge.plane.guard || own_.exceeds(wedge, point);
+    const double error = own_.error_of(wedge, point), guard = own_.guard_of(wedge);
+    if (error < own_.threshold_ - guard) return false;
+    return error > own_.threshold_ + guard || own_.exceeds(wedge, point);
   }
 
   ScatteredRefinement& own_;

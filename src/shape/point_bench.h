@@ -13,8 +13,9 @@ namespace scarp {
 class PointBench final : public ShapeBench {
  public:
   /// The arguments are those of ScatteredRefinement.
-  PointBench(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain, double threshold)
-      : points_(points), heights_(heights), domain_(domain), refinement_(points, heights, domain, threshold) {}
+  PointBench(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain, double threshold,
+             std::span<const double> bounds)
+      : points_(points), heights_(heights), domain_(domain), refinement_(points, heights, domain, threshold, bounds) {}
 
   bool done() const override { return refinement_.done(); }
   bool is_full() const override { return refinement_.is_full(); }

@@ -509,7 +509,8 @@ Frame frame_of(const PointLattice& lattice) {
 }  // namespace
 
 Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeGoals& goals, double threshold, Reporter& reporter) {
+                                const ShapeGoals& goals, double threshold, std::span<const double> bounds,
+                                Reporter& reporter) {
   ShapeTask task{goals, frame_of(points.lattice).affine, threshold};
   task.progress = [&](double, std::uint64_t count, double error) -> Result<void> {
     if (!reporter.due() || reporter.report("shape", 0, count, error)) return {};
@@ -520,7 +521,7 @@ Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const dou
   const Bands bands{1, 1};
   PlanDelaunay delaunay(metric);
   restore_delaunay(domain.tin, delaunay);
-  PointBench bench(points, heights, domain, threshold);
+  PointBench bench(points, heights, domain, threshold, bounds);
   const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
   const double spacing = points.lattice.step * std::sqrt(double(last.x) * last.y / static_cast<double>(points.size()));
   return ShapeRefiner(bench, domain.tin, task, metric, bands, last, spacing).run();

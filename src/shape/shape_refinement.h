@@ -70,10 +70,12 @@ struct ShapeWork {
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
-/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. Fails with
-/// kInput for too many triangles, and with kCancelled. REQUIRES: points with PointSteps::kFloat32 or kFit.
+/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. `bounds`: as
+/// for ScatteredRefinement. Fails with kInput for too many triangles, and with kCancelled. REQUIRES: points with
+/// PointSteps::kFloat32 or kFit.
 Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeGoals& goals, double threshold, Reporter& reporter);
+                                const ShapeGoals& goals, double threshold, std::span<const double> bounds,
+                                Reporter& reporter);
 
 /// Most bytes a vertex that refine_shapes() uses, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;

@@ -19,24 +19,22 @@ namespace {
 constexpr double kUsualShape = 0.1;
 constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
 
-/// The points, with those that share the lattice point of another.
+/// The points, with those that share the lattice point of another. A point with a smaller bound b than the threshold t
+/// is two samples, t − b above and below: errors of at most t at both are errors of at most b at the point. If nothing
+/// is left of b, the point is none; it is a vertex, or on an edge, and proof decides.
 class AllSamples {
  public:
-  explicit AllSamples(const SnappedPoints& points) {
+  AllSamples(const SnappedPoints& points, const PointRecipe& recipe) : recipe_(recipe) {
     const Point last{points.lattice.cols - 1, points.lattice.rows - 1};
     const double rounding = points.is_exact ? 0 : std::numbers::sqrt2 / 2;
-    if (points.echoes.empty()) {
+    if (points.echoes.empty() && recipe.options.tolerances.empty()) {
       samples_.emplace(points.at, points.z, last, rounding);
       return;
     }
     auto echo = points.echoes.begin();
     for (std::uint32_t point = 0; point < points.size(); ++point) {
-      at_.push_back(points.at[point]);
-      z_.push_back(points.z[point]);
-      for (; echo != points.echoes.end() && echo->point == point; ++echo) {
-        at_.push_back(points.at[point]);
-        z_.push_back(echo->z);
-      }
+      add(points.at[point], points.z[point], points.source[point]);
+      for (; echo != points.echoes.end() && echo->point == point; ++echo) add(points.at[point], echo->z, echo->source);
     }
     samples_.emplace(at_, z_, last, rounding);
   }
@@ -44,6 +42,20 @@ class AllSamples {
   const PointSamples& samples() const { return *samples_; }
 
  private:
+  void add(Point at, double z, std::uint32_t source) {
+    const double threshold = recipe_.aims.fit;
+    const double bound =
+        recipe_.options.tolerances.empty() ? threshold : PointAims(recipe_.bound_of(source), recipe_.largest).fit;
+    if (bound <= 0) return;
+    const double room = threshold - bound;
+    for (const double height : {z - room, z + room}) {
+      at_.push_back(at);
+      z_.push_back(height);
+      if (room == 0) break;
+    }
+  }
+
+  const PointRecipe& recipe_;
   std::vector<Point> at_;
   std::vector<double> z_;
   std::optional<PointSamples> samples_;
@@ -92,7 +104,7 @@ Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double>
                             std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain) {
   const PointOptions& options = recipe.options;
   const Quality& quality = options.quality;
-  const AllSamples all(points);
+  const AllSamples all(points, recipe);
   const PointSamples& samples = all.samples();
   FitOptions fit_options;
   fit_options.points = &samples;

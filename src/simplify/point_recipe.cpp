@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "fit/triangle_error.h"
 #include "pieces/checks.h"
@@ -42,13 +43,31 @@ Result<void> check_lines(const PointSet& points, const PointOptions& options) {
                           options.max_triangles ? "max_triangles" : "max_vertices"));
 }
 
+Result<void> check_tolerances(const PointSet& points, const PointOptions& options) {
+  if (options.tolerances.empty()) return {};
+  if (!options.max_error || options.max_triangles || options.max_vertices)
+    return fail(ErrorKind::kUsage, "tolerances of points need a max error, without a budget");
+  if (options.tolerances.size() != points.size())
+    return fail(ErrorKind::kUsage, fmt::format("{} tolerances for {} points: give one for each",
+                                               options.tolerances.size(), points.size()));
+  for (const float tolerance : options.tolerances) {
+    if (!(tolerance >= 0))
+      return fail(ErrorKind::kUsage, fmt::format("a tolerance must be at least 0, and {} is not", tolerance));
+  }
+  return {};
+}
+
+double largest_of(std::span<const double> heights) {
+  double largest = 0;
+  for (const double z : heights) largest = std::max(largest, std::abs(z));
+  return largest;
+}
+
 constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
 
 }  // namespace
 
-PointAims::PointAims(double max_error, std::span<const double> heights) {
-  double largest = 0;
-  for (const double z : heights) largest = std::max(largest, std::abs(z));
+PointAims::PointAims(double max_error, double largest) {
   // A point and the surface are each rounded by half a unit in the last place.
   const double rounding = largest * 0x1p-24 * (1 + 0x1p-10);
   fit = max_error * (1 - kPositionShare) - rounding;
@@ -57,16 +76,18 @@ PointAims::PointAims(double max_error, std::span<const double> heights) {
 
 Result<void> check_point_options(const PointSet& points, const PointOptions& options) {
   SCARP_RETURN_IF_ERROR(check_goals(options));
+  SCARP_RETURN_IF_ERROR(check_tolerances(points, options));
   return check_lines(points, options);
 }
 
 PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only)
     : options(asked),
+      largest(largest_of(points.z)),
       effort(refines_only                            ? Effort::kFast
              : asked.quality.effort == Effort::kAuto ? Effort::kNormal
                                                      : asked.quality.effort),
       traits(traits_of(effort)),
-      aims(asked.max_error.value_or(0), points.z),
+      aims(asked.max_error.value_or(0), largest),
       removes(traits.fits && (!asked.max_error || aims.is_open())),
       searches(removes && (asked.max_triangles || asked.max_vertices)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),

@@ -1,7 +1,8 @@
 // The recipe of a run on scattered points: decisions that follow from its options, made once.
 #pragma once
 
-#include <span>
+#include <algorithm>
+#include <cstdint>
 
 #include "grid/snapped_points.h"
 #include "pieces/effort.h"
@@ -18,7 +19,8 @@ Result<void> check_point_options(const PointSet& points, const PointOptions& opt
 struct PointAims {
   double refinement = 0, fit = 0;
 
-  PointAims(double max_error, std::span<const double> heights);
+  /// `largest`: the largest magnitude of a height.
+  PointAims(double max_error, double largest);
   bool is_open() const { return refinement > 0; }
 };
 
@@ -26,7 +28,13 @@ struct PointAims {
 struct PointRecipe {
   PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only = false);
 
+  /// The bound of a point of the set; REQUIRES: tolerances and a max error.
+  double bound_of(std::uint32_t source) const {
+    return std::min(*options.max_error, double{options.tolerances[source]});
+  }
+
   PointOptions options;
+  double largest;       ///< the largest magnitude of a height
   Effort effort;        ///< never kAuto
   EffortTraits traits;  ///< the work of that effort
   PointAims aims;       ///< without a max error those of 0

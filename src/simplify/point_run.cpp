@@ -42,12 +42,16 @@ class PointRun {
         is_on_lattice_(task.steps == PointSteps::kFloat32 || (goals().any() && !snapped_.is_exact)),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
-        refinement_(std::in_place, snapped_, heights_, domain_, fits_ ? recipe.aims.refinement : bound_),
         reporter_(options_.run.progress) {
-    for (double z : snapped_.z) largest_height_ = std::max(largest_height_, std::abs(z));
+    if (options_.tolerances.empty()) return;
+    for (std::uint32_t point = 0; point < snapped_.size(); ++point) {
+      bounds_.push_back(recipe_.bound_of(snapped_.source[point]));
+      if (fits_) aims_.push_back(std::max(0.0, PointAims(bounds_.back(), recipe_.largest).refinement));
+    }
   }
 
   Result<Simplified> execute(Clock::time_point start) {
+    start_refinement();
     SCARP_RETURN_IF_ERROR(budget_.check(size(), least_, ""));
     Simplified result;
     SCARP_RETURN_IF_ERROR(refine(result.stop));
@@ -73,6 +77,14 @@ class PointRun {
   MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
 
+  /// Towards the bound that fitting needs, or the bound itself.
+  void start_refinement() {
+    if (!fits_) return restart_refinement();
+    refinement_.emplace(snapped_, heights_, domain_, recipe_.aims.refinement, aims_);
+  }
+  /// Towards the bound itself.
+  void restart_refinement() { refinement_.emplace(snapped_, heights_, domain_, bound_, bounds_); }
+
   /// Makes the mesh smaller. Then the workbench of refinement is built anew, for the bound itself.
   Result<void> fit(Simplified& result) {
     result.effort = Effort::kFast;
@@ -81,7 +93,7 @@ class PointRun {
     SCARP_TRY(const auto& fitted, fit_points(snapped_, heights_, fixed_points(), recipe_, domain_));
     result.effort = recipe_.effort;
     if (!lines_.empty() && !goals().any()) {
-      refinement_.emplace(snapped_, heights_, domain_, bound_);
+      restart_refinement();
       if (refinement_->done()) flat_ = refinement_->flip_flats(lines_.on_lines());
     }
     result.is_cut_short = fitted.is_cut_short;
@@ -101,7 +113,8 @@ class PointRun {
   Result<void> shape(double threshold, Simplified& result) {
     if (!goals().any() || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
-    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, goals(), threshold, reporter_));
+    const std::vector<double>& bounds = threshold == bound_ ? bounds_ : aims_;
+    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, goals(), threshold, bounds, reporter_));
     scanned_ += work.samples_scanned;
     dealt_ += work.triangles_scanned;
     insertions_ += work.insertions;
@@ -164,7 +177,7 @@ class PointRun {
       if (splits.empty()) {
         loose_ = lines_.hold(domain_);
         forget_refinement();
-        refinement_.emplace(snapped_, heights_, domain_, fits_ ? recipe_.aims.refinement : bound_);
+        start_refinement();
         if (refinement_->done()) break;
       }
       for (const std::uint32_t point : splits) insert(point);
@@ -261,7 +274,7 @@ class PointRun {
   /// Inserts the points that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help.
   Result<bool> mend(Simplified& result) {
-    if (!refinement_) refinement_.emplace(snapped_, heights_, domain_, bound_);
+    if (!refinement_) restart_refinement();
     std::vector<std::uint32_t> offenders;
     for (const Offender& o : result.measurement.offenders) offenders.push_back(point_of_source(o.col));
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
@@ -311,6 +324,7 @@ class PointRun {
     judge.run.progress = options_.run.progress;
     judge.inlets = options_.boundary_length.has_value();
     if (options_.max_error) judge.collect_above = bound_ + allowance();
+    judge.tolerance = options_.tolerances;
     for (;;) {
       const auto start = Clock::now();
       SCARP_TRY(result.measurement, judge::judge_points(points_, snapped_, result.mesh, judge));
@@ -318,8 +332,8 @@ class PointRun {
       result.judged_rmse = result.measurement.rmse;
       result.seconds_measure += seconds_since(start);
       const Measurement& m = result.measurement;
-      const bool is_kept =
-          result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
+      const bool is_kept = result.stop != StopReason::kMaxError ||
+                           (m.max_error <= bound_ + allowance() && m.uncovered == 0 && m.over_tolerance == 0);
       if (m.is_sound() && is_kept) {
         if (goals().any()) result.shape = report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
         return {};
@@ -334,10 +348,15 @@ class PointRun {
   }
 
   /// The judge's own double arithmetic rounds.
-  double allowance() const { return 1e-12 * (bound_ + largest_height_); }
+  double allowance() const { return 1e-12 * (bound_ + recipe_.largest); }
 
   std::string describe_broken(const Measurement& m) const {
     if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
+    if (m.max_error <= bound_ + allowance()) {
+      const auto i = static_cast<std::size_t>(m.offenders.front().col);
+      return fmt::format("a tolerance of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}",
+                         options_.tolerances[i], points_.x[i], points_.y[i], std::abs(m.offenders.front().error));
+    }
     const auto i = static_cast<std::size_t>(m.max_error_at[0]);
     return fmt::format("a max error of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}", bound_,
                        points_.x[i], points_.y[i], m.max_error);
@@ -384,7 +403,8 @@ class PointRun {
   double width_;
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
-  double largest_height_ = 0, thinnest_border_ = 0;
+  double thinnest_border_ = 0;
+  std::vector<double> bounds_, aims_;  ///< by point, with tolerances: its bound, and that for fitting
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;

@@ -247,6 +247,11 @@ O("a stream as lake of tiles", "scarp tile dem.tif g -e 20 --zoom 9 --vertical e
 LEFT = " && scarp simplify p.geojson o.glb -e 1 --nodata nan --overwrite"
 O("bays of points", "scarp simplify bay.csv o.glb -e 1", "--boundary concave:[0-9]+ ends the mesh at the points", "scarp simplify bay.csv o.glb -e 1 --boundary concave:$(scarp simplify bay.csv p.glb -e 1 2>&1 | grep -o 'concave:[0-9]*' | cut -d: -f2)",
   "awk 'BEGIN { srand(1); print \"x,y,z\"; for (i = 0; i < 1500; ++i) { x = rand() * 100; y = rand() * 100; if (x < 30 || y < 30 || y > 70) print x \",\" y \",\" x / 9 + 3 * sin(y / 9) } }' > bay.csv")
+NEAR_LAKE = ("awk 'BEGIN { srand(1); print \"x,y,z\"; for (i = 0; i < 300; i++) printf \"%.5f,%.5f,%.1f\\n\", -84.33 + rand() * 0.03, 36.33 + rand() * 0.03, "
+             "300 + 9 * rand() }' > p.csv; echo EPSG:4326 > p.prj; ")
+C("a tolerance of points in another CRS", "scarp simplify p.csv o.glb -e 20 --tolerance utm.tif", NEAR_LAKE)
+O("a region of points alone", "scarp simplify p.csv o.glb --roi lake.geojson=1", "needs the error of all others, --max-error",
+  "scarp simplify p.csv o.glb -e 5 --roi lake.geojson=1", NEAR_LAKE)
 O("no height attribute", "scarp simplify p.geojson o.glb -e 1", "name the one that holds heights with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({}, {}))
 O("an empty height", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up" + LEFT, points({"h": None}, {"h": 1}))
 O("a height in words", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up" + LEFT, points({"h": "a"}, {"h": "1"}))

@@ -183,8 +183,7 @@ refuses 2 "none.csv: no such file" "$scarp" simplify none.csv x.glb -e 1
 refuses 2 "nan.csv: line 2" "$scarp" measure nan.csv hills.glb
 refuses 1 "no goal" "$scarp" simplify survey.csv x.glb
 refuses 1 "--band is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --band 1
-refuses 1 "--normals is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --normals
-refuses 1 "--normals is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --normals
+refuses 1 "--uvs is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --uvs
 refuses 1 "--map is for rasters" "$scarp" measure survey.csv hills.glb --map p.png
 refuses 1 "--duplicates is for scattered points" "$scarp" simplify "$dem" x.glb -e 1 --duplicates mean
 for boundary in 0 concave concave: concave:0 concave:-5 concave:nan concave:inf concave:5m alpha:5; do

@@ -38,13 +38,6 @@ Result<OwnedHeightField> read_values(OptionId option, const std::string& path, c
   return values;
 }
 
-/// The length unit of `values` in units of the heights.
-double units_of(const RasterInfo& values, const RasterInfo& heights) {
-  const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
-  return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
-                                                                      : 1;
-}
-
 void add_warnings(const OwnedHeightField& values, Companions& companions) {
   companions.warnings.insert(companions.warnings.end(), values.info.warnings.begin(), values.info.warnings.end());
 }
@@ -179,6 +172,12 @@ Result<void> read_steps(const std::string& path, const OwnedHeightField& field, 
 }
 
 }  // namespace
+
+double units_of(const RasterInfo& values, const RasterInfo& heights) {
+  const bool are_known = !values.unit.empty() && values.unit_in_metres > 0 && heights.unit_in_metres > 0;
+  return are_known && values.unit_in_metres != heights.unit_in_metres ? values.unit_in_metres / heights.unit_in_metres
+                                                                      : 1;
+}
 
 Tolerances Companions::bounds() const {
   return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};

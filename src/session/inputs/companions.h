@@ -47,6 +47,9 @@ struct CompanionRun {
 Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                                    std::optional<double> bound, const CompanionRun& run);
 
+/// The length unit of `values` in units of the heights; 1 if either is unknown.
+double units_of(const RasterInfo& values, const RasterInfo& heights);
+
 /// Fails with a remedy unless `other`, given by `option`, lies on the grid of `raster`.
 Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const std::string& option,
                         const RasterInfo& other, int other_cols, int other_rows);

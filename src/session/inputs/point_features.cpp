@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "io/commands.h"
+#include "scarp/features.h"
+#include "scarp/io.h"
 #include "scarp/lines.h"
+#include "session/inputs/companions.h"
+#include "session/options/region_options.h"
 #include "session/text/text.h"
 
 namespace scarp::cli {
@@ -80,6 +86,49 @@ void warn_of_two_heights(const std::vector<Line>& lines, PointSet& points) {
                     format_plural(count, "place"), kBreaklines, most));
 }
 
+/// Lowers tolerances to the raster's value at the point. Pixels without a value and places outside the raster have
+/// none. False if it lowers none.
+Result<bool> lower_by_raster(const std::string& path, const PointSet& points, const ProgressCallback& progress,
+                             std::vector<float>& tolerances) {
+  ReadOptions options;
+  options.crs = "grid";
+  options.as_values = true;
+  options.run.progress = progress;
+  Result<OwnedHeightField> values = read_height_field(path, options);
+  if (!values) return fail(values.error().kind, fmt::format("{}: {}", kTolerance, values.error().message));
+  const std::string& crs = points.is_local ? points.source_crs : points.crs;
+  if (!crs.empty() && !values->info.crs.empty() && crs != values->info.crs)
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} {} is in {} and the points are in {}: bring it there (gdalwarp -t_srs {} {} {})", kTolerance,
+                    shell_word(path), values->info.crs, crs, shell_word(crs), shell_word(path), new_file(".tif")));
+  const std::array<double, 6>& g = values->info.geotransform;
+  const double area = g[1] * g[5] - g[2] * g[4];
+  if (!values->info.has_georeference || area == 0)
+    return fail(ErrorKind::kInput, fmt::format("{} {} has no place: points need a raster in their coordinates",
+                                               kTolerance, shell_word(path)));
+  const double scale = units_of(values->info, points.heights);
+  bool lowers_any = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [x, y] = points.place_in_file(i);
+    const double col = ((x - g[0]) * g[5] - (y - g[3]) * g[2]) / area;
+    const double row = ((y - g[3]) * g[1] - (x - g[0]) * g[4]) / area;
+    if (!(col >= 0 && col <= values->cols && row >= 0 && row <= values->rows)) continue;
+    // The far sides belong to the last pixels.
+    const auto c = std::min(static_cast<int>(col), values->cols - 1),
+               r = std::min(static_cast<int>(row), values->rows - 1);
+    const double value = double{values->samples[static_cast<std::size_t>(r) * values->cols + c]} * scale;
+    if (value < 0)
+      return fail(ErrorKind::kInput, fmt::format("{} {}: the tolerance {} in column {}, row {} is negative", kTolerance,
+                                                 shell_word(path), value, c, r));
+    if (std::isnan(value) || !(value < double{tolerances[i]})) continue;
+    const auto rounded = static_cast<float>(value);
+    tolerances[i] = double{rounded} > value ? std::nextafter(rounded, 0.0f) : rounded;
+    lowers_any = true;
+  }
+  return lowers_any;
+}
+
 }  // namespace
 
 Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {
@@ -101,6 +150,53 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
         fmt::format("{} of {} lie beyond the points: they have the height of the nearest place on the points' hull",
                     format_plural(beyond, "place"), kBreaklines));
   return {};
+}
+
+Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, const ProgressCallback& progress,
+                                         PointSet& points) {
+  const auto files = given.all(kWater);
+  if (files.empty()) return std::vector<PointLake>();
+  ReadLinesOptions options;
+  options.ignore_z = true;
+  options.progress = progress;
+  SCARP_TRY(const auto& rings, read(files, options, points));
+  SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(kWater), name_of(kBreaklines)));
+  SCARP_TRY(auto&& lakes,
+            level_lakes(rings, given.number(kWaterPercentile)->value_or(WaterOptions().percentile), points));
+  for (const PointLake& lake : lakes) {
+    if (std::isnan(lake.level))
+      points.warnings.push_back(fmt::format("{} {} lies beyond the points: it changes nothing", kWater, lake.name));
+  }
+  return std::move(lakes);
+}
+
+Result<std::vector<float>> read_tolerances(const GivenOptions& given, double beyond, const ProgressCallback& progress,
+                                           PointSet& points) {
+  if (!find_tolerance(given)) return std::vector<float>();
+  ReadLinesOptions options;
+  options.ignore_z = true;
+  options.progress = progress;
+  std::vector<Region> regions;
+  for (const std::string& text : given.all(kRoi)) {
+    SCARP_TRY(const RegionFile& file, parse_region(text));
+    SCARP_TRY(auto&& lines, read({file.path}, options, points));
+    regions.push_back({std::move(lines), file.tolerance});
+  }
+  const double unit = points.unit_in_metres > 0 ? points.unit_in_metres : 1;
+  std::vector<bool> found;
+  auto tolerances = region_tolerances(regions, points, given.number(kFalloff)->value_or(0) / unit, beyond, &found);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k])
+      points.warnings.push_back(
+          fmt::format("{} {} lowers the error of no point: it changes nothing", kRoi, shell_word(given.all(kRoi)[k])));
+  }
+  if (given.has(kTolerance)) {
+    SCARP_TRY(const auto found_any, lower_by_raster(*given[kTolerance], points, progress, tolerances));
+    if (!found_any)
+      points.warnings.push_back(fmt::format("{} {} lowers the error of no point: it changes nothing", kTolerance,
+                                            shell_word(*given[kTolerance])));
+  }
+  return tolerances;
 }
 
 Result<std::vector<Line>> read_boundary(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {

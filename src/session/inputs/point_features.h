@@ -15,9 +15,17 @@ namespace scarp::cli {
 /// points that needs a height causes a warning.
 Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
+/// Makes lakes of the polygons of --water. A lake that lies beyond the points causes a warning.
+Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
+
 /// Ends the points at the polygons of --boundary, if that names a file. `tolerance`: of the surface along them.
 Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
                                                    const ProgressCallback& progress, PointSet& points);
+
+/// The points' tolerances by --tolerance and --roi, the smaller one of both, with `beyond` elsewhere; empty without
+/// them. A file that lowers none causes a warning.
+Result<std::vector<float>> read_tolerances(const GivenOptions& given, double beyond, const ProgressCallback& progress,
+                                           PointSet& points);
 
 /// The polygons of --boundary, united; empty if it names no file.
 Result<std::vector<Line>> read_boundary(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scarp/version.h"
 #include "session/options/points_options.h"
+#include "session/options/region_options.h"
 #include "session/options/strategy_options.h"
 #include "session/reports/level_report.h"
 #include "session/reports/report.h"
@@ -132,7 +134,17 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
                            {"origin_crs", or_null(outcome.points.crs.empty() ? Given() : Given(outcome.points.crs))}};
   }
   report["goal"] = describe_goal(plan, outcome);
+  for (const PointLake& lake : outcome.lakes) {
+    report["water"].push_back(Json{{"name", lake.name},
+                                   {"level", std::isnan(lake.level) ? Json(nullptr) : Json(lake.level)},
+                                   {"points_dropped", lake.dropped}});
+  }
   report["strategy"] = Json{{"effort", effort_name(outcome.simplified.effort)}};
+  if (find_tolerance(plan.given)) {
+    report["strategy"]["tolerance"] = or_null(plan.given[OptionId::kTolerance]);
+    report["strategy"]["roi"] = plan.given.all(OptionId::kRoi);
+    report["with_tolerance"] = outcome.with_tolerance;
+  }
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -163,6 +175,11 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
+  for (const PointLake& lake : outcome.lakes) {
+    if (!std::isnan(lake.level))
+      text += summary_line("lake", fmt::format("{} at {}, {} in it left out", lake.name, format_number(lake.level),
+                                               format_plural(lake.dropped, "point")));
+  }
   if (outcome.cut)
     text += summary_line("boundary", fmt::format("{}: {}, {} outside left out", base_name(outcome.boundary),
                                                  format_plural(outcome.cut->corners, "corner"),
@@ -189,6 +206,8 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   text += summary_line("max error", fmt::format("{} at {}{}", format_number(measured.max_error),
                                                 describe_place(outcome.points, measured), describe_asked(outcome)));
   text += summary_line("RMSE", format_number(measured.rmse));
+  if (outcome.with_tolerance > 0)
+    text += summary_line("tolerances", format_plural(outcome.with_tolerance, "point") + ", all kept");
   text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
   return text + seconds_line(outcome) +
          describe_end(plan, outcome, measured.max_error == 0 ? "Reproduced every point" : nullptr);
@@ -205,6 +224,7 @@ Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const
   report["triangles"] = judged.measured.triangles;
   add_point_measurement(report, judged.points, judged.measured);
   report["fail_above"] = or_null(judged.fail_above);
+  if (judged.has_tolerances) report["over_tolerance"] = judged.measured.over_tolerance;
   report["passed"] = judged.fail_above || judged.broken ? Json(!judged.broken) : Json(nullptr);
   report["seconds"] =
       Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};

@@ -27,6 +27,8 @@ struct PointsOutcome : SimplifyRun {
   PointSet points;
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
+  std::vector<PointLake> lakes;
+  std::uint64_t with_tolerance = 0;  ///< points with a smaller bound of their own
   double lattice_step = 0;
   std::string boundary = "hull";                ///< value of --boundary
   std::optional<BoundaryCut> cut;               ///< by polygons
@@ -53,6 +55,7 @@ struct JudgedPoints {
   std::optional<double> fail_above;
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
   std::optional<ReadyFile> errors;    ///< with --error-raster
+  bool has_tolerances = false;        ///< with --tolerance or --roi
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
   std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }

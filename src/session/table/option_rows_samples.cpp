@@ -90,14 +90,17 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Raster of tolerances, one for each sample, in the units of the heights. No value means no bound. Can be "
-             "used without -e."},
+     .is_for_points = true,
+     .help =
+         "Raster of tolerances, one for each sample, in the units of the heights; of points that of the pixel around "
+         "each. No value means no bound. Can be used without -e, but not for points."},
     {.id = kTolerance,
      .name = "--tolerance",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
+     .is_for_points = true,
      .help = "Raster of tolerances, one for each sample, in the units of the heights. End with exit code 3 if an error "
              "is above its tolerance.",
      .brief = "Raster of tolerances, one for each sample"},
@@ -108,8 +111,9 @@ constexpr OptionRow kSampleRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
+     .is_for_points = true,
      .help = "Region of interest: errors are at most M in the polygons, and on the lines, of a vector file. Can be "
-             "used without -e; where regions overlap, the smallest M counts.",
+             "used without -e, but not for points; where regions overlap, the smallest M counts.",
      .brief = "Errors of at most M in the polygons of a vector file"},
     {.id = kRoi,
      .name = "--roi",
@@ -118,6 +122,7 @@ constexpr OptionRow kSampleRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
+     .is_for_points = true,
      .help = "Region of interest: exit code 3 if an error is above M in the polygons, or on the lines, of a vector "
              "file. Where regions overlap, the smallest M counts."},
     {.id = kFalloff,
@@ -131,6 +136,7 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "metres, or units of the CRS",
      .by_default = "0",
      .least = 0,
+     .is_for_points = true,
      .help = "Distance over which the bound blends from the region's to that of all samples. In metres if known, else "
              "in units of the CRS."},
     {.id = kScript,
@@ -332,9 +338,10 @@ constexpr OptionRow kSampleRows[] = {
      .value = "hull|concave:LENGTH|FILE",
      .by_default = "hull",
      .is_for_points = true,
-     .help = "Boundary of the mesh: the convex hull of the points, a concave one, or the polygons of a vector file. "
-             "concave removes triangles with a boundary edge longer than LENGTH, in the unit of x and y, while the mesh "
-             "stays in one piece."},
+     .help =
+         "Boundary of the mesh: the convex hull of the points, a concave one, or the polygons of a vector file. "
+         "concave removes triangles with a boundary edge longer than LENGTH, in the unit of x and y, while the mesh "
+         "stays in one piece."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kMeasure,

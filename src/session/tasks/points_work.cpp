@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "scarp/points.h"
 #include "session/inputs/mesh_place.h"
 #include "session/inputs/point_features.h"
 #include "session/options/error_goal.h"
 #include "session/options/raster_options.h"
+#include "session/options/region_options.h"
 #include "session/reports/shape_report.h"
 #include "session/table/option_table.h"
 #include "session/tasks/measure_work.h"
@@ -187,6 +190,28 @@ double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points
   return plan.error_goal ? plan.error_goal->absolute(relief) / 2 : kShareOfRelief * relief;
 }
 
+Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& options, bool has_normals) {
+  SCARP_TRY(auto&& made, simplify_points(points, options));
+  if (has_normals) {
+    SCARP_TRY(made.simplified.mesh.normals, point_normals(points, made.simplified.mesh));
+  }
+  return std::move(made);
+}
+
+/// For points --cutline is another name of --boundary.
+Result<GivenOptions> boundary_of_cutline(const GivenOptions& given) {
+  if (!given.has(kCutline)) return given;
+  const std::vector<std::string> files = given.all(kCutline);
+  if (given.has(kBoundary) || files.size() > 1)
+    return fail(ErrorKind::kUsage, fmt::format("the surface of points ends at the polygons of one file: join them, and "
+                                               "give it with {}",
+                                               kBoundary));
+  GivenOptions asked = given;
+  asked.set(kBoundary, Given(files.front()));
+  asked.set(kCutline, GivenOptions::Texts());
+  return asked;
+}
+
 /// Warns where the convex hull bridges bays or has slivers.
 void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
   if (fit.boundary_length == 0) return;
@@ -204,9 +229,16 @@ void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
 
 }  // namespace
 
-Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, SimplifyPlan& plan,
+Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, SimplifyPlan& plan,
                               PointsOutcome& outcome) {
   const Clock::time_point start = Clock::now();
+  SCARP_TRY(const auto& given, boundary_of_cutline(stated));
+  if (const auto bounds = find_tolerance(given);
+      bounds && (!given[kMaxError] || given[kMaxTriangles] || given[kMaxPoints]))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} of points needs the error of all others, {}, and no budget: no search finds errors "
+                            "for both",
+                            *bounds, kMaxError));
   if (!given.first_of({kMaxError, kMaxTriangles, kMaxPoints}))
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
@@ -224,6 +256,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   SCARP_TRY(PointSet points, read(given, as, runner.progress));
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
+  SCARP_TRY(outcome.lakes, add_lakes(given, runner.progress, points));
   SCARP_RETURN_IF_ERROR(add_breaklines(given, runner.progress, points));
   if (plan.error_goal) {
     SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
@@ -245,10 +278,16 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
   SCARP_TRY(outcome.projections, plan_projection_files(plan, outcome.points.crs));
-  outcome.warnings = plan.warnings;
-  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
+  std::vector<float> tolerances;
+  if (outcome.asked) {
+    SCARP_TRY(tolerances, read_tolerances(given, *outcome.asked, runner.progress, outcome.points));
+    outcome.with_tolerance = static_cast<std::uint64_t>(std::count_if(
+        tolerances.begin(), tolerances.end(), [&](float bound) { return double{bound} < *outcome.asked; }));
+  }
+  outcome.warnings = plan.warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   outcome.seconds_read = seconds_since(start);
 
   PointOptions options;
@@ -259,10 +298,12 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   options.duplicates = outcome.policy;
   options.boundary_length = boundary.length;
   options.quality = plan.simplify.quality;
+  options.tolerances = tolerances;
   options.run.is_time_up = plan.simplify.run.is_time_up;
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
-  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
+  const bool has_normals = plan.simplify.output.normals;
+  Result<SimplifiedPoints> simplified = make_level(outcome.points, options, has_normals);
   if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.input()));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;
@@ -279,7 +320,7 @@ Result<void> make_points_mesh(const GivenOptions& given, const Runner& runner, S
   warn_of_shapes(plan.simplify.quality.shape, outcome.simplified, outcome.warnings);
   for (int k = 1; plan.levels && k < plan.levels->count; ++k) {
     *options.max_error *= plan.levels->ratio;
-    Result<SimplifiedPoints> level = simplify_points(outcome.points, options);
+    Result<SimplifiedPoints> level = make_level(outcome.points, options, has_normals);
     if (!level) return tl::unexpected(with_path(std::move(level.error()), given.input()));
     outcome.coarser.push_back({options.max_error, std::move(level->simplified)});
   }
@@ -302,8 +343,9 @@ Result<void> complete_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
   return {};
 }
 
-Result<void> judge_points(const GivenOptions& given, const Runner& runner, JudgedPoints& judged) {
+Result<void> judge_points(const GivenOptions& stated, const Runner& runner, JudgedPoints& judged) {
   const Clock::time_point start = Clock::now();
+  SCARP_TRY(const auto& given, boundary_of_cutline(stated));
   SCARP_TRY(const int threads, given.threads());
   std::optional<ErrorGoal> goal;
   if (given[kFailAbove]) {
@@ -349,10 +391,17 @@ Result<void> judge_points(const GivenOptions& given, const Runner& runner, Judge
   options.run.progress = runner.progress;
   options.inlets = boundary.length.has_value();
   if (!ends.rings.empty()) options.cutline = &ends;
+  const double beyond = judged.fail_above.value_or(std::numeric_limits<double>::infinity());
+  SCARP_TRY(const auto& tolerances, read_tolerances(given, beyond, runner.progress, judged.points));
+  options.tolerance = tolerances;
+  judged.has_tolerances = find_tolerance(given).has_value();
   if (judged.errors) collect_errors(judged.points, judged.errors->bytes, options);
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
+  if (!judged.broken && judged.measured.over_tolerance > 0)
+    judged.broken = fmt::format("the error at {} is above the tolerance there",
+                                format_plural(judged.measured.over_tolerance, "point"));
   if (judged.measured.samples == 0)
     judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), path);
   return {};

@@ -1,0 +1,121 @@
+// Laws of lakes in points and of their normals: level lakes, islands of land, and planes.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/point_sets.h"
+#include "scarp/points.h"
+
+namespace scarp::point_lakes_laws_test {
+namespace {
+
+using testing::Heights;
+using testing::Scatter;
+
+/// A bumpy square of 1000 units.
+PointSet any_land(int count) {
+  PointSet points =
+      testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), count, Scatter::kFloats, Heights::kReal);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points.x[i] *= 1000;
+    points.y[i] *= 1000;
+    points.z[i] = 0.1 * points.z[i] + 20 * std::sin(points.x[i] / 200) + points.y[i] / 50;
+  }
+  return points;
+}
+
+Line ring_around(double x, double y, double reach, LineRole role) {
+  Line ring;
+  ring.role = role;
+  ring.polygon = 0;
+  ring.name = "pond";
+  ring.points = {{x - reach, y - reach, 0},
+                 {x + reach, y - reach, 0},
+                 {x + reach, y + reach, 0},
+                 {x - reach, y + reach, 0},
+                 {x - reach, y - reach, 0}};
+  return ring;
+}
+
+bool holds(const Line& ring, double x, double y) {
+  return ring.points[0][0] <= x && x <= ring.points[2][0] && ring.points[0][1] <= y && y <= ring.points[2][1];
+}
+
+RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
+  PointSet points = any_land(*rc::gen::inRange(60, 400));
+  const double x = *rc::gen::inRange(300, 700), y = *rc::gen::inRange(300, 700);
+  const Line shore = ring_around(x, y, 150, LineRole::kOuter), island = ring_around(x, y, 60, LineRole::kHole);
+  std::size_t on_island = 0, in_lake = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_on_island = holds(island, points.x[i], points.y[i]);
+    on_island += is_on_island;
+    in_lake += !is_on_island && holds(shore, points.x[i], points.y[i]);
+  }
+  const std::size_t given = points.size();
+  const auto lakes = level_lakes(std::vector{shore, island}, *rc::gen::element(0.0, 5.0, 50.0, 100.0), points);
+  RC_ASSERT(lakes.has_value() && lakes->size() == 1);
+  RC_ASSERT(lakes->front().dropped == in_lake);
+  RC_ASSERT(points.size() == given - in_lake + 8 && points.lines.size() == 2);
+  PointOptions options{.max_error = *rc::gen::element(0.5, 4.0), .float32_positions = false};
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  const auto made = simplify_points(points, options);
+  RC_ASSERT(made.has_value());
+  // Places of the lake, between shore and island, and the land.
+  PointSet places;
+  for (int k = 0; k < 40; ++k) {
+    const double px = x - 149 + *rc::gen::inRange(0, 298), py = y - 149 + *rc::gen::inRange(0, 298);
+    if (holds(island, px, py)) continue;
+    places.x.push_back(px);
+    places.y.push_back(py);
+    places.z.push_back(lakes->front().level);
+  }
+  const auto [missed, uneven] = testing::judge_by_brute_force(places, made->simplified.mesh);
+  RC_ASSERT(missed == 0 && uneven < 1e-9);
+  RC_ASSERT(testing::judge_by_brute_force(points, made->simplified.mesh).second <= *options.max_error + 1e-6);
+}
+
+RC_GTEST_PROP(point_lakes, have_the_percentile_of_their_shore, ()) {
+  // On a slope in x the surface along the shore is known.
+  PointSet points = any_land(400);
+  for (const auto [px, py] : {std::pair{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}}) {
+    points.x.push_back(px);
+    points.y.push_back(py);
+    points.z.push_back(0);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) points.z[i] = points.x[i];
+  const Line shore = ring_around(500, 500, 100, LineRole::kOuter);
+  const double percentile = *rc::gen::element(0.0, 10.0, 100.0);
+  const auto lakes = *level_lakes(std::vector{shore}, percentile, points);
+  // A quarter of the shore is its western side, at 400.
+  RC_ASSERT(std::abs(lakes.front().level - (percentile == 100 ? 600 : 400)) < 1e-3);
+}
+
+TEST(point_lakes, beyond_all_points_change_nothing) {
+  PointSet points = testing::random_points(3, 50, Scatter::kFloats, Heights::kReal);
+  const std::vector<double> before = points.z;
+  const auto lakes = *level_lakes(std::vector{ring_around(9000, 9000, 10, LineRole::kOuter)}, 5, points);
+  EXPECT_TRUE(std::isnan(lakes.front().level));
+  EXPECT_EQ(points.z, before);
+  EXPECT_TRUE(points.lines.empty());
+}
+
+RC_GTEST_PROP(point_normals, of_a_plane_are_its_normal_up_to_the_hull, ()) {
+  PointSet points = any_land(*rc::gen::inRange(10, 200));
+  const double a = *rc::gen::inRange(-20, 20) / 10.0, b = *rc::gen::inRange(-20, 20) / 10.0;
+  for (std::size_t i = 0; i < points.size(); ++i) points.z[i] = a * points.x[i] + b * points.y[i] + 7;
+  const auto made = simplify_points(points, {.max_error = 0.01, .float32_positions = false});
+  RC_ASSERT(made.has_value());
+  const Mesh& mesh = made->simplified.mesh;
+  const auto normals = *point_normals(points, mesh);
+  RC_ASSERT(normals.size() == 3 * mesh.vertex_count());
+  const double length = std::sqrt(a * a + b * b + 1);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double expected[] = {-a / length, -b / length, 1 / length};
+    for (std::size_t k = 0; k < 3; ++k) RC_ASSERT(std::abs(double{normals[3 * v + k]} - expected[k]) < 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace scarp::point_lakes_laws_test
