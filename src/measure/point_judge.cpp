@@ -5,8 +5,6 @@
 // result never depends on threads.
 #include "measure/point_judge.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,8 +35,7 @@ Result<void> check_options(const PointSet& points, const MeasureOptions& options
   if (options.tolerance_source != nullptr)
     return fail(ErrorKind::kUsage, "tolerances of scattered points are in memory: use MeasureOptions::tolerance");
   if (!options.tolerance.empty() && options.tolerance.size() != points.size())
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} tolerances for {} points: give one for each", options.tolerance.size(), points.size()));
+    return fail(ErrorKind::kUsage, "tolerances of points have another number than these: give one for each");
   return {};
 }
 

@@ -52,7 +52,7 @@ Result<void> check_tolerances(const PointSet& points, const PointOptions& option
                                                options.tolerances.size(), points.size()));
   for (const float tolerance : options.tolerances) {
     if (!(tolerance >= 0))
-      return fail(ErrorKind::kUsage, fmt::format("a tolerance must be at least 0, and {} is not", tolerance));
+      return fail(ErrorKind::kUsage, fmt::format("a tolerance must be at least 0, and {} is not", double{tolerance}));
   }
   return {};
 }

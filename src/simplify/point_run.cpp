@@ -352,15 +352,14 @@ class PointRun {
 
   std::string describe_broken(const Measurement& m) const {
     if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
-    if (m.max_error <= bound_ + allowance()) {
-      const auto i = static_cast<std::size_t>(m.offenders.front().col);
-      return fmt::format("a tolerance of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}",
-                         options_.tolerances[i], points_.x[i], points_.y[i], std::abs(m.offenders.front().error));
-    }
-    const auto i = static_cast<std::size_t>(m.max_error_at[0]);
-    return fmt::format("a max error of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}", bound_,
-                       points_.x[i], points_.y[i], m.max_error);
+    const bool is_of_point = has_own_bound(m);
+    const auto i = static_cast<std::size_t>(is_of_point ? m.offenders.front().col : m.max_error_at[0]);
+    return fmt::format("a {} of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}",
+                       is_of_point ? "tolerance" : "max error", is_of_point ? double{options_.tolerances[i]} : bound_,
+                       points_.x[i], points_.y[i], is_of_point ? std::abs(m.offenders.front().error) : m.max_error);
   }
+  /// True if only a tolerance is broken.
+  bool has_own_bound(const Measurement& m) const { return m.max_error <= bound_ + allowance(); }
   std::string describe_fold() const {
     const PointLattice& lattice = snapped_.lattice;
     const bool is_thin = width_ <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
@@ -372,7 +371,7 @@ class PointRun {
     if (goals().any())
       return ": points nearly on one line leave no room for such triangles: omit the goals for angles and edges" +
              (far.empty() ? "" : "; " + far);
-    const std::string larger = m.is_sound() && m.uncovered == 0
+    const std::string larger = m.is_sound() && m.uncovered == 0 && !has_own_bound(m)
                                    ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
                                    : std::string("ask for a larger error");
     return (options_.float32_positions

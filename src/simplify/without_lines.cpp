@@ -37,7 +37,7 @@ HeightField FieldLines::apply(const HeightField& field) const { return field; }
 
 Result<ShapeWork> refine_shapes(const Raster&, Triangulation&, VertexLattice&, const ShapeTask&) { return refuse(); }
 Result<ShapeWork> refine_shapes(const SnappedPoints&, std::span<const double>, ScatteredDomain&, const ShapeGoals&,
-                                double, Reporter&) {
+                                double, std::span<const double>, Reporter&) {
   return refuse();
 }
 std::optional<ShapeRule> shape_rule(const ShapeGoals&, const PointLattice&) { return std::nullopt; }
