@@ -60,27 +60,36 @@ struct SimplifiedPoints {
 
 /// Adds lines, in the coordinates of the points, as edges of the mesh: their vertices become points. A vertex without a
 /// height (NaN) gets that of the Delaunay triangulation of the points given, beyond their hull that of the hull's
-/// nearest place. Returns how many lie beyond. Fails with kInput for points that have no surface. Cost: O(vertices),
-/// with vertices without a height expected O(n log n) for n points.
-Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points);
+/// nearest place. `duplicates`: which points of one place count. Returns how many lie beyond. Fails with kInput for
+/// points that have no surface. Cost: O(vertices), with vertices without a height expected O(n log n) for n points.
+Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points,
+                                DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
 /// A lake that level_lakes() made.
 struct PointLake {
-  std::string name;           ///< name of its outer ring
-  double level = 0;           ///< NaN for a lake that lies beyond the points: it is omitted
+  double level = 0;           ///< a float32; NaN for a lake that lies beyond the points: it is omitted
   std::uint64_t dropped = 0;  ///< number of points in it given up
+  std::uint64_t beyond = 0;   ///< vertices of its shore beyond the points' hull, which the surface then reaches
 };
 
-/// Makes lakes of polygons, given as rings: drops the points in them, except those of lines, and adds the rings, holes
-/// included, as lines at one height, so that all triangles of a lake are level. That height is a percentile, 0 … 100,
-/// of the Delaunay triangulation of the points given, along the rings. To be called before add_lines(). Fails with
-/// kInput for points that have no surface. Cost: expected O(n log n).
-Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double percentile, PointSet& points);
+/// Makes lakes of polygons: drops the points in them and adds their rings, holes included, as lines at one height, so
+/// that all triangles of a lake are level. That height is a percentile, 0 … 100, of the Delaunay triangulation of all
+/// points, along the rings; lakes that meet at a vertex have one. To be called after add_lines(). Fails with kInput for
+/// points that have no surface, for a line with a vertex in a lake at another height, and for a lake around all points.
+/// REQUIRES: polygons that do not cross or overlap, as inset_polygons() returns. Cost: expected O(n log n).
+Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double percentile, PointSet& points,
+                                           DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
+
+/// Drops the points in polygons, given as rings, and all lines; returns how many points. For the judge of a mesh with
+/// such lakes.
+std::uint64_t drop_inside(std::span<const Line> rings, PointSet& points);
 
 /// Unit normals of the Delaunay triangulation of the points at the vertices of a mesh in their coordinates, as
-/// Mesh::normals: by differences of heights over the mean distance between points; near the hull those of the mesh's
-/// triangles around, by area. Fails with kInput for points that have no surface. Cost: expected O(n log n).
-Result<std::vector<float>> point_normals(const PointSet& points, const Mesh& mesh);
+/// Mesh::normals: by differences of heights over the mean distance between points. Near the hull, and for points with
+/// lines, normals of the mesh's triangles around the vertex, by area. Fails with kInput for points that have no
+/// surface. Cost: expected O(n log n).
+Result<std::vector<float>> point_normals(const PointSet& points, const Mesh& mesh,
+                                         DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
 /// The result of cut_to_boundary().
 struct BoundaryCut {
@@ -95,7 +104,8 @@ struct BoundaryCut {
 /// called once, after add_lines(). Between corners more are added where the surface differs from the straight edge by
 /// more than `tolerance`, such as half the max error. Fails with kInput without a ring and for points that have no
 /// surface. Cost: expected O(n log n).
-Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points);
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points,
+                                    DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
 /// Drops the points outside the polygons, given as rings, and all lines; returns how many points. For the judge of a
 /// mesh with such a boundary: see MeasureOptions::cutline.
@@ -104,7 +114,8 @@ std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points);
 /// A tolerance for each point, as PointOptions::tolerances: t in a region of tolerance t, t + (beyond - t) · min(1, d /
 /// falloff) at a distance d from it, in units of x and y; with a falloff of 0 `beyond` outside. The smallest of several
 /// regions counts. Tolerances are rounded down to float32. `found`: for each region, true if any point has a smaller
-/// tolerance by it; may be null. REQUIRES: falloff, beyond >= 0. Cost: O(points · (1 + edges near the point)).
+/// tolerance by it; may be null. REQUIRES: falloff, beyond >= 0; a finite `beyond` with a falloff. Cost: O(points · (1
+/// + edges near the point)).
 std::vector<float> region_tolerances(std::span<const Region> regions, const PointSet& points, double falloff,
                                      double beyond, std::vector<bool>* found = nullptr);
 

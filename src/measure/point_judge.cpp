@@ -32,10 +32,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 Result<void> check_options(const PointSet& points, const MeasureOptions& options) {
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance))
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of mean point distances");
-  if (options.tolerance_source != nullptr)
-    return fail(ErrorKind::kUsage, "tolerances of scattered points are in memory: use MeasureOptions::tolerance");
-  if (!options.tolerance.empty() && options.tolerance.size() != points.size())
-    return fail(ErrorKind::kUsage, "tolerances of points have another number than these: give one for each");
+  const bool fits = options.tolerance.empty() || options.tolerance.size() == points.size();
+  if (!fits || options.tolerance_source != nullptr)
+    return fail(ErrorKind::kUsage, "tolerances of points: give one for each, at least 0");
   return {};
 }
 
@@ -195,17 +194,15 @@ class PointBounds {
     for (const double z : snapped.z) largest_ = std::max(largest_, std::abs(z));
   }
 
-  double at(std::uint32_t source) const { return tolerances_.empty() ? for_all_ : std::min(for_all_, allowed(source)); }
-  bool is_over_tolerance(std::uint32_t source, double error) const {
-    return !tolerances_.empty() && std::abs(error) > allowed(source);
-  }
-
- private:
-  double allowed(std::uint32_t source) const {
+  double at(std::uint32_t source) const { return std::min(for_all_, own(source)); }
+  /// The point's tolerance, infinite without.
+  double own(std::uint32_t source) const {
+    if (tolerances_.empty()) return HUGE_VAL;
     const double tolerance = double{tolerances_[source]};
     return tolerance + 1e-12 * (tolerance + largest_);
   }
 
+ private:
   double for_all_, largest_ = 0;
   std::span<const float> tolerances_;
 };
@@ -346,7 +343,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     const std::uint32_t source = judge.source_of(point);
     const double error = errors[point];
     result.uncovered += std::isnan(error);
-    result.over_tolerance += bounds.is_over_tolerance(source, error);
+    result.over_tolerance += std::abs(error) > bounds.own(source);
     if (!options.collect_above) continue;
     if (std::isnan(error)) {
       offenders.add_uncovered(source);

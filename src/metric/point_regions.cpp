@@ -54,15 +54,18 @@ class RegionPart {
   std::size_t region() const { return region_; }
   const PlaceBox& box() const { return box_; }
 
-  /// 0 inside; infinity where it is more than the reach.
-  double distance(double x, double y) const {
+  /// 0 inside; infinity where it is not below `most`, nor at most the reach.
+  double distance(double x, double y, double most) const {
     if (x < box_.low[0] || x > box_.high[0] || y < box_.low[1] || y > box_.high[1]) return kFar;
+    const double beside_x = std::max({0.0, box_.low[0] + reach_ - x, x - (box_.high[0] - reach_)});
+    const double beside_y = std::max({0.0, box_.low[1] + reach_ - y, y - (box_.high[1] - reach_)});
+    if (std::hypot(beside_x, beside_y) > most) return kFar;
     if (bands_.holds(x, y)) return 0;
     double nearest = kFar;
     if (reach_ > 0)
-      bands_.each_near(y - reach_, y + reach_,
+      bands_.each_near(y - most, y + most,
                        [&](std::size_t e) { nearest = std::min(nearest, distance_to(bands_.edge(e), x, y)); });
-    return nearest <= reach_ ? nearest : kFar;
+    return nearest <= most ? nearest : kFar;
   }
 
  private:
@@ -131,10 +134,14 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
   std::vector<float> tolerances(points.size(), at_most(beyond));
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const std::size_t part : grid.at(points.x[i], points.y[i])) {
-      const double away = parts[part].distance(points.x[i], points.y[i]);
       const std::size_t region = parts[part].region();
-      const double own = regions[region].tolerance;
-      if (away == kFar || !(own < beyond)) continue;
+      const double own = regions[region].tolerance, now = double{tolerances[i]};
+      if (!(own < beyond) || (own >= now && (found == nullptr || (*found)[region]))) continue;
+      // From farther away it lowers no tolerance any more; one that has lowered none counts as found, too.
+      const bool is_counted = found == nullptr || (*found)[region];
+      const double most = is_counted && falloff > 0 ? falloff * (now - own) / (beyond - own) * (1 + 1e-12) : falloff;
+      const double away = parts[part].distance(points.x[i], points.y[i], std::min(most, falloff));
+      if (away == kFar) continue;
       const double share = falloff > 0 ? std::min(1.0, away / falloff) : 0;
       tolerances[i] = std::min(tolerances[i], at_most(share == 0 ? own : own + (beyond - own) * share));
       if (found != nullptr && share < 1) (*found)[region] = true;

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-Result<PointSurface> PointSurface::make(const PointSet& points) {
-  SCARP_TRY(auto&& snapped, snap_points(points, DuplicatePolicy::kFirst, PointSteps::kFit));
+Result<PointSurface> PointSurface::make(const PointSet& points, DuplicatePolicy duplicates) {
+  SCARP_TRY(auto&& snapped, snap_points(points, duplicates, PointSteps::kFit));
   SCARP_TRY(auto&& domain, build_domain(snapped));
   add_points(snapped, 1, domain);
   return PointSurface(std::move(snapped), std::move(domain));

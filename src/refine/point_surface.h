@@ -12,7 +12,7 @@ namespace scarp {
 class PointSurface {
  public:
   /// Fails as snap_points() and build_domain() do. Cost: expected O(n log n).
-  static Result<PointSurface> make(const PointSet& points);
+  static Result<PointSurface> make(const PointSet& points, DuplicatePolicy duplicates);
 
   struct Height {
     double z = 0;

@@ -45,11 +45,11 @@ struct Meeting {
 /// The boundary's own points: its corners, and the places where lines meet it, ring by ring.
 class BoundaryMaker {
  public:
-  BoundaryMaker(std::span<const Line> rings, double tolerance, PointSet& points)
-      : rings_(rings), edges_(places_of(rings)), points_(points), tolerance_(tolerance) {}
+  BoundaryMaker(std::span<const Line> rings, double tolerance, PointSet& points, DuplicatePolicy duplicates)
+      : rings_(rings), edges_(places_of(rings)), points_(points), tolerance_(tolerance), duplicates_(duplicates) {}
 
   Result<BoundaryCut> run() {
-    SCARP_TRY(const auto& surface, PointSurface::make(points_));
+    SCARP_TRY(const auto& surface, PointSurface::make(points_, duplicates_));
     spacing_ = surface.spacing() / 2;
     find_on_boundary();
     cut_lines();
@@ -248,6 +248,7 @@ class BoundaryMaker {
   RingBands edges_;
   PointSet& points_;
   double tolerance_, spacing_ = 1;
+  DuplicatePolicy duplicates_;
   std::vector<Meeting> meetings_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> line_edges_;  // the lower point first, sorted
   std::vector<bool> own_;                                            // by point: it is a meeting
@@ -255,13 +256,13 @@ class BoundaryMaker {
 
 }  // namespace
 
-Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
+Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points, DuplicatePolicy duplicates) {
   const bool any_soft = std::any_of(lines.begin(), lines.end(), [](const Line& line) {
     return std::any_of(line.points.begin(), line.points.end(), [](const auto& point) { return std::isnan(point[2]); });
   });
   std::optional<PointSurface> surface;
   if (any_soft) {
-    SCARP_TRY(auto&& made, PointSurface::make(points));
+    SCARP_TRY(auto&& made, PointSurface::make(points, duplicates));
     surface.emplace(std::move(made));
   }
   std::uint64_t beyond = 0;
@@ -283,17 +284,25 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points) {
   return beyond;
 }
 
-std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points) {
+namespace {
+
+std::uint64_t keep_side(std::span<const Line> rings, bool is_inside, PointSet& points) {
   const RingBands edges(places_of(rings));
   const std::size_t given = points.size();
   points.lines.clear();
-  keep_points(points, [&](std::size_t i) { return edges.holds(points.x[i], points.y[i]); });
+  keep_points(points, [&](std::size_t i) { return edges.holds(points.x[i], points.y[i]) == is_inside; });
   return given - points.size();
 }
 
-Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points) {
+}  // namespace
+
+std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points) { return keep_side(rings, true, points); }
+std::uint64_t drop_inside(std::span<const Line> rings, PointSet& points) { return keep_side(rings, false, points); }
+
+Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points,
+                                    DuplicatePolicy duplicates) {
   if (rings.empty()) return fail(ErrorKind::kInput, "the boundary has no polygon");
-  return BoundaryMaker(rings, tolerance, points).run();
+  return BoundaryMaker(rings, tolerance, points, duplicates).run();
 }
 
 }  // namespace scarp

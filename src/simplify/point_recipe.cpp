@@ -47,13 +47,10 @@ Result<void> check_tolerances(const PointSet& points, const PointOptions& option
   if (options.tolerances.empty()) return {};
   if (!options.max_error || options.max_triangles || options.max_vertices)
     return fail(ErrorKind::kUsage, "tolerances of points need a max error, without a budget");
-  if (options.tolerances.size() != points.size())
-    return fail(ErrorKind::kUsage, fmt::format("{} tolerances for {} points: give one for each",
-                                               options.tolerances.size(), points.size()));
-  for (const float tolerance : options.tolerances) {
-    if (!(tolerance >= 0))
-      return fail(ErrorKind::kUsage, fmt::format("a tolerance must be at least 0, and {} is not", double{tolerance}));
-  }
+  const bool are_valid =
+      options.tolerances.size() == points.size() &&
+      std::all_of(options.tolerances.begin(), options.tolerances.end(), [](float bound) { return bound >= 0; });
+  if (!are_valid) return fail(ErrorKind::kUsage, "tolerances of points: give one for each, at least 0");
   return {};
 }
 

@@ -44,10 +44,9 @@ class PointRun {
         seeds_(domain_.point_of.size()),
         reporter_(options_.run.progress) {
     if (options_.tolerances.empty()) return;
-    for (std::uint32_t point = 0; point < snapped_.size(); ++point) {
-      bounds_.push_back(recipe_.bound_of(snapped_.source[point]));
-      if (fits_) aims_.push_back(std::max(0.0, PointAims(bounds_.back(), recipe_.largest).refinement));
-    }
+    for (const std::uint32_t source : snapped_.source) bounds_.push_back(recipe_.bound_of(source));
+    aims_ = bounds_;
+    for (double& aim : aims_) aim = std::max(0.0, PointAims(aim, recipe_.largest).refinement);
   }
 
   Result<Simplified> execute(Clock::time_point start) {
@@ -276,10 +275,14 @@ class PointRun {
   Result<bool> mend(Simplified& result) {
     if (!refinement_) restart_refinement();
     std::vector<std::uint32_t> offenders;
-    for (const Offender& o : result.measurement.offenders) offenders.push_back(point_of_source(o.col));
-    // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
-    const auto is_vertex = [this](std::uint32_t point) { return refinement_->gain_at(point) == 0; };
-    if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
+    stuck_.reset();
+    for (const Offender& o : result.measurement.offenders) {
+      offenders.push_back(point_of_source(o.col));
+      // The rounding of a vertex itself breaks the bound, and no other vertex can mend that.
+      const bool is_vertex = refinement_->gain_at(offenders.back()) == 0;
+      if (is_vertex && (!stuck_ || std::abs(o.error) > std::abs(stuck_->error))) stuck_ = o;
+    }
+    if (offenders.empty() || stuck_) return false;
     for (const std::uint32_t point : offenders) {
       if (const auto budget = exceeded(refinement_->gain_at(point))) {
         result.stop = *budget;
@@ -352,14 +355,21 @@ class PointRun {
 
   std::string describe_broken(const Measurement& m) const {
     if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
-    const bool is_of_point = has_own_bound(m);
-    const auto i = static_cast<std::size_t>(is_of_point ? m.offenders.front().col : m.max_error_at[0]);
+    const auto& [point, bound, error] = find_broken(m);
     return fmt::format("a {} of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}",
-                       is_of_point ? "tolerance" : "max error", is_of_point ? double{options_.tolerances[i]} : bound_,
-                       points_.x[i], points_.y[i], is_of_point ? std::abs(m.offenders.front().error) : m.max_error);
+                       bound < bound_ ? "tolerance" : "max error", bound, points_.x[point], points_.y[point], error);
   }
-  /// True if only a tolerance is broken.
-  bool has_own_bound(const Measurement& m) const { return m.max_error <= bound_ + allowance(); }
+  struct Broken {
+    std::size_t point;
+    double bound, error;
+  };
+  /// With tolerances a point that cannot keep its own, else the worst.
+  Broken find_broken(const Measurement& m) const {
+    if (options_.tolerances.empty() || m.offenders.empty())
+      return {static_cast<std::size_t>(m.max_error_at[0]), bound_, m.max_error};
+    const Offender& o = stuck_ ? *stuck_ : m.offenders.front();
+    return {static_cast<std::size_t>(o.col), recipe_.bound_of(static_cast<std::uint32_t>(o.col)), std::abs(o.error)};
+  }
   std::string describe_fold() const {
     const PointLattice& lattice = snapped_.lattice;
     const bool is_thin = width_ <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
@@ -371,8 +381,8 @@ class PointRun {
     if (goals().any())
       return ": points nearly on one line leave no room for such triangles: omit the goals for angles and edges" +
              (far.empty() ? "" : "; " + far);
-    const std::string larger = m.is_sound() && m.uncovered == 0 && !has_own_bound(m)
-                                   ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
+    const std::string larger = m.is_sound() && m.uncovered == 0
+                                   ? fmt::format("ask for at least {:.2g}", round_up(find_broken(m).error))
                                    : std::string("ask for a larger error");
     return (options_.float32_positions
                 ? fmt::format(
@@ -408,6 +418,7 @@ class PointRun {
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> points_by_source_, mended_;
+  std::optional<Offender> stuck_;  ///< a vertex that breaks its bound
   std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0, flat_ = 0, loose_ = 0;
   Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};

@@ -92,6 +92,52 @@ RC_GTEST_PROP(point_lakes, have_the_percentile_of_their_shore, ()) {
   RC_ASSERT(std::abs(lakes.front().level - (percentile == 100 ? 600 : 400)) < 1e-3);
 }
 
+TEST(point_lakes, with_lines_of_other_heights_or_around_all_points_are_refused) {
+  const PointSet land = testing::random_points(3, 50, Scatter::kFloats, Heights::kReal);
+  const auto refused = [](const Line& shore, PointSet points) {
+    const auto lakes = level_lakes(std::vector{shore}, 5, points);
+    return lakes ? "" : lakes.error().message;
+  };
+  PointSet with_line = land;
+  Line pier;
+  pier.name = "pier";
+  pier.points = {{0.45, 0.5, 900}, {0.55, 0.5, 900}};
+  ASSERT_TRUE(add_lines(std::vector{pier}, with_line).has_value());
+  const Line pond = ring_around(0.5, 0.5, 0.2, LineRole::kOuter);
+  EXPECT_EQ(refused(pond, land), "");
+  EXPECT_NE(refused(pond, with_line).find("pier runs through a lake: at (0.45, 0.5) its height is 900"),
+            std::string::npos);
+  EXPECT_NE(refused(ring_around(0.5, 0.5, 5, LineRole::kOuter), land).find("no shore among the points"),
+            std::string::npos);
+}
+
+RC_GTEST_PROP(point_lakes, boundaries_and_normals_do_not_depend_on_the_order_of_points, ()) {
+  PointSet points = any_land(*rc::gen::inRange(60, 200));
+  for (std::size_t i = 0; i < 40; ++i) {
+    points.x.push_back(points.x[i]);
+    points.y.push_back(points.y[i]);
+    points.z.push_back(points.z[i] + *rc::gen::inRange(-9, 9));
+  }
+  PointSet shuffled = points;
+  for (auto* values : {&shuffled.x, &shuffled.y, &shuffled.z}) std::reverse(values->begin(), values->end());
+  const auto policy = *rc::gen::element(DuplicatePolicy::kHighest, DuplicatePolicy::kLowest);
+  const std::vector rings{ring_around(500, 500, 200, LineRole::kOuter)};
+  const bool has_boundary = *rc::gen::arbitrary<bool>(), has_lake = *rc::gen::arbitrary<bool>();
+  const auto make = [&](PointSet set) {
+    if (has_lake) RC_ASSERT(level_lakes(rings, 20, set, policy).has_value());
+    if (has_boundary)
+      RC_ASSERT(cut_to_boundary(std::vector{ring_around(500, 500, 400, LineRole::kOuter)}, 1, set, policy).has_value());
+    auto made = simplify_points(set, {.max_error = 2.0, .float32_positions = false, .duplicates = policy});
+    RC_ASSERT(made.has_value());
+    made->simplified.mesh.normals = *point_normals(set, made->simplified.mesh, policy);
+    return made->simplified.mesh;
+  };
+  const Mesh one = make(points), other = make(shuffled);
+  RC_ASSERT(one.positions == other.positions);
+  RC_ASSERT(one.triangles == other.triangles);
+  RC_ASSERT(one.normals == other.normals);
+}
+
 TEST(point_lakes, beyond_all_points_change_nothing) {
   PointSet points = testing::random_points(3, 50, Scatter::kFloats, Heights::kReal);
   const std::vector<double> before = points.z;

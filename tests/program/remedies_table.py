@@ -250,7 +250,7 @@ O("bays of points", "scarp simplify bay.csv o.glb -e 1", "--boundary concave:[0-
 NEAR_LAKE = ("awk 'BEGIN { srand(1); print \"x,y,z\"; for (i = 0; i < 300; i++) printf \"%.5f,%.5f,%.1f\\n\", -84.33 + rand() * 0.03, 36.33 + rand() * 0.03, "
              "300 + 9 * rand() }' > p.csv; echo EPSG:4326 > p.prj; ")
 C("a tolerance of points in another CRS", "scarp simplify p.csv o.glb -e 20 --tolerance utm.tif", NEAR_LAKE)
-O("a region of points alone", "scarp simplify p.csv o.glb --roi lake.geojson=1", "needs the error of all others, --max-error",
+O("a region of points alone", "scarp simplify p.csv o.glb --roi lake.geojson=1", "needs --max-error, the error of all others",
   "scarp simplify p.csv o.glb -e 5 --roi lake.geojson=1", NEAR_LAKE)
 O("no height attribute", "scarp simplify p.geojson o.glb -e 1", "name the one that holds heights with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up", points({}, {}))
 O("an empty height", "scarp simplify p.geojson o.glb -e 1", "name another with --z-field", "scarp simplify p.geojson o.glb -e 1 --z-field up" + LEFT, points({"h": None}, {"h": 1}))

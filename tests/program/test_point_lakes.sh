@@ -14,6 +14,8 @@ def write(name, rings):
         {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": rings}}]}, open(name, "w"))
 write("lake.geojson", [[at(300, 300), at(600, 320), at(580, 560), at(310, 540), at(300, 300)],
                        [at(420, 400), at(420, 460), at(480, 460), at(480, 400), at(420, 400)]])
+write("bow.geojson", [[at(300, 300), at(600, 560), at(600, 300), at(300, 560), at(300, 300)]])
+write("all.geojson", [[at(-100, -100), at(2000, -100), at(2000, 2000), at(-100, 2000), at(-100, -100)]])
 write("far.geojson", [[at(5000, 0), at(5100, 0), at(5100, 100), at(5000, 0)]])
 write("site.geojson", [[at(100, 100), at(900, 120), at(880, 700), at(120, 680), at(100, 100)]])
 json.dump({"type": "FeatureCollection", "features": [
@@ -22,7 +24,8 @@ PY
 
 for effort in fast normal high; do
   succeeds "$scarp" simplify survey.csv lake.2dm -e 0.5 --water lake.geojson --effort "$effort" --report lake.json --overwrite
-  grep -q 'lake          lake.geojson.* at 2[0-9][0-9].*, 2[0-9][0-9] points in it left out' "$logs/out" || fail "the summary of the lake"
+  grep -q 'water         1 lake at 2[0-9][0-9].*, 2[0-9][0-9] points in them left out' "$logs/out" || fail "the summary of the lake"
+  succeeds "$scarp" measure survey.csv lake.2dm --fail-above 0.5
   python3 - <<'PY' || fail "the lake with $effort effort"
 import json
 water, = json.load(open("lake.json"))["water"]
@@ -50,10 +53,34 @@ holds "$(json high.json water 0 level) > $low + 1"
 succeeds "$scarp" simplify survey.csv both.2dm -e 0.5 --water lake.geojson --boundary site.geojson --breaklines line.geojson,soft
 succeeds "$scarp" simplify survey.csv plain.2dm -e 0.5
 succeeds "$scarp" simplify survey.csv far.2dm -e 0.5 --water far.geojson
-grep -q "lies beyond the points: it changes nothing" "$logs/err" || fail "no warning of a lake elsewhere"
+grep -q "1 lake of --water beyond the points: it changes nothing" "$logs/err" || fail "no warning of a lake elsewhere"
 cmp <(grep -E '^(ND|E3T)' far.2dm) <(grep -E '^(ND|E3T)' plain.2dm) || fail "a lake elsewhere changes the mesh"
 refuses 1 "--water flats is for rasters" "$scarp" simplify survey.csv x.2dm -e 0.5 --water flats=50
-refuses 1 "cannot be combined with lines" "$scarp" simplify survey.csv x.2dm -t 500 --water lake.geojson
+refuses 1 "cannot be combined with --water" "$scarp" simplify survey.csv x.2dm -t 500 --water lake.geojson
+refuses 1 "cannot be combined with --water" "$scarp" simplify survey.csv x.2dm -e 1 --boundary concave:50 --water lake.geojson
+refuses 2 "no shore among the points" "$scarp" simplify survey.csv x.2dm -e 1 --water all.geojson
+python3 - <<'PY'
+import json
+at = lambda x, y: [500000 + x, 4000000 + y]
+line = {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [at(330, 350), at(400, 380)]}}
+json.dump({"type": "FeatureCollection", "features": [line]}, open("pier.geojson", "w"))
+PY
+refuses 2 "pier.geojson feature 0 runs through a lake" "$scarp" simplify survey.csv x.2dm -e 1 --water lake.geojson --breaklines pier.geojson
+
+# Rings that cross themselves, and lakes that overlap, are united; vertices for angles are as high as the shore.
+levels() {
+  python3 - "$@" <<'PY'
+import json, sys
+heights = {float(w[4]) for w in map(str.split, open(sys.argv[1])) if w and w[0] == "ND" and any(
+    x0 < float(w[2]) - 500000 < x1 and y0 < float(w[3]) - 4000000 < y1 for x0, y0, x1, y1 in eval(sys.argv[2]))}
+wanted = {lake["level"] for lake in json.load(open("u.json"))["water"]}
+assert len(heights) and heights <= wanted, (sorted(heights)[:5], wanted)
+PY
+}
+succeeds "$scarp" simplify survey.csv u.2dm -e 0.5 --water bow.geojson --max-edge 30 --report u.json
+levels u.2dm "[(320, 400, 380, 460), (520, 400, 580, 460)]" || fail "a lake whose ring crosses itself is not level"
+succeeds "$scarp" simplify survey.csv u.2dm -e 0.5 --water lake.geojson --water bow.geojson --min-angle 25 --max-edge 30 --report u.json --overwrite
+levels u.2dm "[(330, 330, 410, 530), (500, 330, 570, 530)]" || fail "two lakes that overlap are not level"
 refuses 2 "is a line, and --water needs polygons" "$scarp" simplify survey.csv x.2dm -e 0.5 --water line.geojson
 
 # Normals are those of all points, in each level and with the mesh turned y up.

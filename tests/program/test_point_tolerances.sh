@@ -86,12 +86,16 @@ succeeds "$scarp" measure survey.csv roi.2dm --roi site.geojson=0.1 --fail-above
 grep -q '"over_tolerance": 0' "$logs/out" || fail "measure does not count points above their tolerance"
 succeeds "$scarp" measure survey.csv tolerance.2dm --tolerance accuracy.tif
 succeeds "$scarp" simplify survey.csv plain.2dm -e 2
-refuses 3 "is above the tolerance there" "$scarp" measure survey.csv plain.2dm --roi site.geojson=0.1 -q
+refuses 3 "points is above the tolerance there, such as 1." "$scarp" measure survey.csv plain.2dm --roi site.geojson=0.1 -q
+refuses 3 "a tolerance of 0 cannot be kept" "$scarp" simplify survey.csv x.glb -e 2 --roi site.geojson=0
+succeeds "$scarp" simplify survey.csv exact.ply -e 2 --roi site.geojson=0 --double
+succeeds "$scarp" measure survey.csv exact.ply --fail-above 2 --roi site.geojson=0
+grep -q 'verdict             keeps 2 and the tolerances' "$logs/out" || fail "measure does not say that tolerances are kept"
 refuses 3 "is above the tolerance there" "$scarp" measure survey.csv plain.2dm --tolerance accuracy.tif -q
 succeeds "$scarp" simplify survey.csv away.2dm -e 2 --roi away.geojson=0.1
-grep -q "lowers the error of no point: it changes nothing" "$logs/err" || fail "no warning of a region without points"
+grep -q "lowers the error of no point: none lies in it" "$logs/err" || fail "no warning of a region without points"
 cmp <(grep -E '^(ND|E3T)' away.2dm) <(grep -E '^(ND|E3T)' plain.2dm) || fail "a region without points changes the mesh"
-refuses 1 "--roi of points needs" "$scarp" simplify survey.csv x.glb --roi site.geojson=0.1
+refuses 1 "--roi of points needs --max-error, the error of all others" "$scarp" simplify survey.csv x.glb --roi site.geojson=0.1
 refuses 1 "--tolerance of points needs" "$scarp" simplify survey.csv x.glb -e 2 -t 500 --tolerance accuracy.tif
 refuses 2 "gdalwarp -t_srs EPSG:32616 elsewhere.tif" "$scarp" simplify survey.csv x.glb -e 2 --tolerance elsewhere.tif
 refuses 2 "minus.tif: the tolerance -1 in column 0, row 7 is negative" "$scarp" simplify survey.csv x.glb -e 2 --tolerance minus.tif

@@ -61,7 +61,7 @@ succeeds "$scarp" simplify survey.csv wide.glb -e 1 --boundary wide.geojson
 grep -q '1 corner of --boundary lie up to 60' "$logs/err" || fail "no warning of a corner beyond the points"
 refuses 2 "needs polygons" "$scarp" simplify survey.csv x.glb -e 1 --boundary dike.geojson
 refuses 2 "no point lies within --boundary far.geojson" "$scarp" simplify survey.csv x.glb -e 1 --boundary far.geojson
-refuses 1 "cannot be combined with lines" "$scarp" simplify survey.csv x.glb -t 500 --breaklines dike.geojson
+refuses 1 "cannot be combined with --breaklines" "$scarp" simplify survey.csv x.glb -t 500 --breaklines dike.geojson
 
 # The surface as a raster.
 succeeds "$scarp" simplify survey.csv dem.tif -e 1 --cell-size 10 -q

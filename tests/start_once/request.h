@@ -18,7 +18,7 @@ struct Request {
   uint32_t words;
   uint32_t arguments;
   uint32_t files;
-  int32_t numbers[kMostFiles];  // of the files; the first is the working directory
+  int32_t numbers[kMostFiles];  // numbers of the files; the first is the working directory
   uint32_t umask;
   uint64_t ignored;  // signals
   struct rlimit limits[kLimits];

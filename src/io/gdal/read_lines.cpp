@@ -209,8 +209,10 @@ class LineCollector {
 Result<void> transform(const Crs& from, const Crs& to, LineSet& set) {
   const auto way = build_transform(from, to);
   const auto refuse = [&](const std::string& culprit) {
-    return fail(ErrorKind::kInput, fmt::format("{} in {} (from {}): cut the lines to where the raster lies", culprit,
-                                               short_name(to), short_name(from)));
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} in {} (from {}): cut the lines to where the input lies, or declare their CRS (GeoJSON: WGS 84)",
+                    culprit, short_name(to), short_name(from)));
   };
   if (!way) return refuse(set.path + ": nothing has a place");
   constexpr std::size_t kBatch = 1 << 16;  // vertices; a batch ends only between lines

@@ -98,10 +98,10 @@ Result<bool> lower_by_raster(const std::string& path, const PointSet& points, co
   if (!values) return fail(values.error().kind, fmt::format("{}: {}", kTolerance, values.error().message));
   const std::string& crs = points.is_local ? points.source_crs : points.crs;
   if (!crs.empty() && !values->info.crs.empty() && crs != values->info.crs)
-    return fail(
-        ErrorKind::kInput,
-        fmt::format("{} {} is in {} and the points are in {}: bring it there (gdalwarp -t_srs {} {} {})", kTolerance,
-                    shell_word(path), values->info.crs, crs, shell_word(crs), shell_word(path), new_file(".tif")));
+    return fail(ErrorKind::kInput,
+                fmt::format("{} {} is in {}, and the points are read in {}: bring it there (gdalwarp -t_srs {} {} {})",
+                            kTolerance, shell_word(path), values->info.crs, crs, shell_word(crs), shell_word(path),
+                            new_file(".tif")));
   const std::array<double, 6>& g = values->info.geotransform;
   const double area = g[1] * g[5] - g[2] * g[4];
   if (!values->info.has_georeference || area == 0)
@@ -131,7 +131,8 @@ Result<bool> lower_by_raster(const std::string& path, const PointSet& points, co
 
 }  // namespace
 
-Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {
+Result<void> add_breaklines(const GivenOptions& given, DuplicatePolicy duplicates, const ProgressCallback& progress,
+                            PointSet& points) {
   const auto files = given.all(kBreaklines);
   if (files.empty()) return {};
   ReadLinesOptions options;
@@ -144,7 +145,7 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
   }
   warn_of_strangers(lines, points);
   warn_of_two_heights(lines, points);
-  SCARP_TRY(const auto beyond, add_lines(lines, points));
+  SCARP_TRY(const auto beyond, add_lines(lines, points, duplicates));
   if (beyond > 0)
     points.warnings.push_back(
         fmt::format("{} of {} lie beyond the points: they have the height of the nearest place on the points' hull",
@@ -152,22 +153,43 @@ Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& p
   return {};
 }
 
-Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, const ProgressCallback& progress,
-                                         PointSet& points) {
-  const auto files = given.all(kWater);
-  if (files.empty()) return std::vector<PointLake>();
+namespace {
+
+Result<std::vector<Line>> read_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {
   ReadLinesOptions options;
   options.ignore_z = true;
   options.progress = progress;
-  SCARP_TRY(const auto& rings, read(files, options, points));
+  SCARP_TRY(const auto& rings, read(given.all(kWater), options, points));
   SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(kWater), name_of(kBreaklines)));
-  SCARP_TRY(auto&& lakes,
-            level_lakes(rings, given.number(kWaterPercentile)->value_or(WaterOptions().percentile), points));
-  for (const PointLake& lake : lakes) {
-    if (std::isnan(lake.level))
-      points.warnings.push_back(fmt::format("{} {} lies beyond the points: it changes nothing", kWater, lake.name));
-  }
+  return inset_polygons(rings, 0);
+}
+
+}  // namespace
+
+Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, DuplicatePolicy duplicates,
+                                         const ProgressCallback& progress, PointSet& points) {
+  if (given.all(kWater).empty()) return std::vector<PointLake>();
+  SCARP_TRY(const auto& rings, read_lakes(given, progress, points));
+  const double percentile = given.number(kWaterPercentile)->value_or(WaterOptions().percentile);
+  SCARP_TRY(auto&& lakes, level_lakes(rings, percentile, points, duplicates));
+  const auto far =
+      std::count_if(lakes.begin(), lakes.end(), [](const PointLake& lake) { return std::isnan(lake.level); });
+  if (far > 0)
+    points.warnings.push_back(fmt::format("{} of {} beyond the points: {}", format_plural(far, "lake"), kWater,
+                                          std::cmp_equal(far, lakes.size()) ? "it changes nothing" : "omitted"));
+  std::uint64_t beyond = 0;
+  for (const PointLake& lake : lakes) beyond += std::isnan(lake.level) ? 0 : lake.beyond;
+  if (beyond > 0)
+    points.warnings.push_back(
+        fmt::format("{} of {} lie beyond the points: the mesh reaches there", format_plural(beyond, "place"), kWater));
   return std::move(lakes);
+}
+
+Result<void> drop_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {
+  if (given.all(kWater).empty()) return {};
+  SCARP_TRY(const auto& rings, read_lakes(given, progress, points));
+  drop_inside(rings, points);
+  return {};
 }
 
 Result<std::vector<float>> read_tolerances(const GivenOptions& given, double beyond, const ProgressCallback& progress,
@@ -188,7 +210,9 @@ Result<std::vector<float>> read_tolerances(const GivenOptions& given, double bey
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k])
       points.warnings.push_back(
-          fmt::format("{} {} lowers the error of no point: it changes nothing", kRoi, shell_word(given.all(kRoi)[k])));
+          fmt::format("{} {} lowers the error of no point: none lies in it (are both in one CRS?), or its "
+                      "error is not below that of the others",
+                      kRoi, shell_word(given.all(kRoi)[k])));
   }
   if (given.has(kTolerance)) {
     SCARP_TRY(const auto found_any, lower_by_raster(*given[kTolerance], points, progress, tolerances));
@@ -210,12 +234,13 @@ Result<std::vector<Line>> read_boundary(const GivenOptions& given, const Progres
   return inset_polygons(rings, 0);
 }
 
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
-                                                   const ProgressCallback& progress, PointSet& points) {
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, DuplicatePolicy duplicates,
+                                                   double tolerance, const ProgressCallback& progress,
+                                                   PointSet& points) {
   SCARP_TRY(const auto& rings, read_boundary(given, progress, points));
   if (rings.empty()) return std::nullopt;
   const std::uint64_t given_points = points.size();
-  SCARP_TRY(const auto& cut, scarp::cut_to_boundary(rings, tolerance, points));
+  SCARP_TRY(const auto& cut, scarp::cut_to_boundary(rings, tolerance, points, duplicates));
   if (cut.points_outside >= given_points)
     return fail(ErrorKind::kInput, fmt::format("no point lies within {} {}: are both in one CRS?", kBoundary,
                                                shell_word(*given[kBoundary])));

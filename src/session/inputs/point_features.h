@@ -13,14 +13,19 @@ namespace scarp::cli {
 
 /// Reads the files of --breaklines, in the CRS and the unit of the points, and adds their lines. A vertex beyond the
 /// points that needs a height causes a warning.
-Result<void> add_breaklines(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
+Result<void> add_breaklines(const GivenOptions& given, DuplicatePolicy duplicates, const ProgressCallback& progress,
+                            PointSet& points);
 
-/// Makes lakes of the polygons of --water. A lake that lies beyond the points causes a warning.
-Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
+/// Makes lakes of the polygons of --water, united. Lakes beyond the points cause a warning.
+Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, DuplicatePolicy duplicates,
+                                         const ProgressCallback& progress, PointSet& points);
+/// Drops the points in the lakes of --water, and all lines, for the judge of such a mesh.
+Result<void> drop_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
 /// Ends the points at the polygons of --boundary, if that names a file. `tolerance`: of the surface along them.
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, double tolerance,
-                                                   const ProgressCallback& progress, PointSet& points);
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, DuplicatePolicy duplicates,
+                                                   double tolerance, const ProgressCallback& progress,
+                                                   PointSet& points);
 
 /// The points' tolerances by --tolerance and --roi, the smaller one of both, with `beyond` elsewhere; empty without
 /// them. A file that lowers none causes a warning.

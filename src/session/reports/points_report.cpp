@@ -135,14 +135,14 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   }
   report["goal"] = describe_goal(plan, outcome);
   for (const PointLake& lake : outcome.lakes) {
-    report["water"].push_back(Json{{"name", lake.name},
-                                   {"level", std::isnan(lake.level) ? Json(nullptr) : Json(lake.level)},
-                                   {"points_dropped", lake.dropped}});
+    report["water"].push_back(
+        Json{{"level", std::isnan(lake.level) ? Json(nullptr) : Json(lake.level)}, {"points_dropped", lake.dropped}});
   }
   report["strategy"] = Json{{"effort", effort_name(outcome.simplified.effort)}};
   if (find_tolerance(plan.given)) {
     report["strategy"]["tolerance"] = or_null(plan.given[OptionId::kTolerance]);
     report["strategy"]["roi"] = plan.given.all(OptionId::kRoi);
+    report["strategy"]["falloff"] = or_null(plan.given[OptionId::kFalloff]);
     report["with_tolerance"] = outcome.with_tolerance;
   }
   report["stopped_by"] = stop_name(outcome.simplified.stop);
@@ -175,10 +175,14 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
-  for (const PointLake& lake : outcome.lakes) {
-    if (!std::isnan(lake.level))
-      text += summary_line("lake", fmt::format("{} at {}, {} in it left out", lake.name, format_number(lake.level),
-                                               format_plural(lake.dropped, "point")));
+  if (!outcome.lakes.empty()) {
+    std::uint64_t dropped = 0;
+    for (const PointLake& lake : outcome.lakes) dropped += lake.dropped;
+    text += summary_line("water", fmt::format("{}{}, {} in them left out", format_plural(outcome.lakes.size(), "lake"),
+                                              outcome.lakes.size() == 1 && !std::isnan(outcome.lakes.front().level)
+                                                  ? " at " + format_number(outcome.lakes.front().level)
+                                                  : "",
+                                              format_plural(dropped, "point")));
   }
   if (outcome.cut)
     text += summary_line("boundary", fmt::format("{}: {}, {} outside left out", base_name(outcome.boundary),
@@ -211,6 +215,15 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
   return text + seconds_line(outcome) +
          describe_end(plan, outcome, measured.max_error == 0 ? "Reproduced every point" : nullptr);
+}
+
+std::string describe_over_tolerance(const PointSet& points, const Measurement& measured) {
+  const auto& worst =
+      *std::max_element(measured.offenders.begin(), measured.offenders.end(),
+                        [](const Offender& a, const Offender& b) { return std::abs(a.error) < std::abs(b.error); });
+  const auto [x, y] = points.place_in_file(static_cast<std::size_t>(worst.col));
+  return fmt::format("the error at {} is above the tolerance there, such as {:.6g} at {:.12g}, {:.12g}",
+                     format_plural(measured.over_tolerance, "point"), std::abs(worst.error), x, y);
 }
 
 Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line) {
@@ -258,8 +271,13 @@ std::string make_table(const JudgedPoints& judged, const std::string& mesh_path)
                            m.angle_percentiles[0], m.angle_percentiles[1], m.angle_percentiles[2]));
   const std::string faults = list_faults(m);
   text += line("topology", faults.empty() ? "sound" : faults);
-  if (judged.fail_above) {
-    text += line("verdict", fmt::format("{} {}", judged.broken ? "FAILS" : "keeps", format_number(*judged.fail_above)));
+  if (judged.has_tolerances)
+    text +=
+        line("tolerances", m.over_tolerance == 0 ? "kept" : "broken at " + format_plural(m.over_tolerance, "point"));
+  if (judged.fail_above || judged.has_tolerances) {
+    const std::string bound = judged.fail_above ? " " + format_number(*judged.fail_above) : "";
+    text += line("verdict",
+                 (judged.broken ? "FAILS" : "keeps") + (judged.has_tolerances ? bound + " and the tolerances" : bound));
   }
   return text;
 }

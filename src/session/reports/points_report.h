@@ -61,6 +61,9 @@ struct JudgedPoints {
   std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }
 };
 
+/// The worst point above its tolerance. REQUIRES: offenders.
+std::string describe_over_tolerance(const PointSet& points, const Measurement& measured);
+
 Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line);
 std::string make_table(const JudgedPoints& judged, const std::string& mesh_path);
 

@@ -137,8 +137,9 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "0",
      .least = 0,
      .is_for_points = true,
-     .help = "Distance over which the bound blends from the region's to that of all samples. In metres if known, else "
-             "in units of the CRS."},
+     .help =
+         "Distance over which the bound blends from that of each region to that of all samples. In metres if known, "
+         "else in units of the CRS."},
     {.id = kScript,
      .name = "--script",
      .commands = kSimplify,

@@ -137,6 +137,7 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   for (const Remembered& of : kRemembered) {
     if (plan.given.has(of.option)) mesh.metadata[of.key] = *plan.given[of.option];
   }
+  if (plan.given.has(kWater)) mesh.metadata["water"] = Json(plan.given.all(kWater)).dump();
   if (plan.read.view.extent) mesh.metadata["te"] = Json(*plan.read.view.extent).dump();
   if (plan.read.nodata) mesh.metadata["nodata"] = fmt::format("{}", *plan.read.nodata);
   const RasterInfo& heights = outcome.points.heights;
@@ -193,7 +194,7 @@ double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points
 Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& options, bool has_normals) {
   SCARP_TRY(auto&& made, simplify_points(points, options));
   if (has_normals) {
-    SCARP_TRY(made.simplified.mesh.normals, point_normals(points, made.simplified.mesh));
+    SCARP_TRY(made.simplified.mesh.normals, point_normals(points, made.simplified.mesh, options.duplicates));
   }
   return std::move(made);
 }
@@ -236,9 +237,8 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   if (const auto bounds = find_tolerance(given);
       bounds && (!given[kMaxError] || given[kMaxTriangles] || given[kMaxPoints]))
     return fail(ErrorKind::kUsage,
-                fmt::format("{} of points needs the error of all others, {}, and no budget: no search finds errors "
-                            "for both",
-                            *bounds, kMaxError));
+                fmt::format("{} of points needs {}, the error of all others, and no budget such as -t or -p", *bounds,
+                            kMaxError));
   if (!given.first_of({kMaxError, kMaxTriangles, kMaxPoints}))
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
@@ -256,24 +256,29 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   SCARP_TRY(PointSet points, read(given, as, runner.progress));
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
-  SCARP_TRY(outcome.lakes, add_lakes(given, runner.progress, points));
-  SCARP_RETURN_IF_ERROR(add_breaklines(given, runner.progress, points));
+  SCARP_RETURN_IF_ERROR(add_breaklines(given, policy, runner.progress, points));
+  SCARP_TRY(outcome.lakes, add_lakes(given, policy, runner.progress, points));
   if (plan.error_goal) {
     SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
     SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, points.heights, *plan.error_goal, points.warnings));
   }
-  SCARP_TRY(outcome.cut, cut_to_boundary(given, tolerance_along_boundary(plan, points), runner.progress, points));
+  SCARP_TRY(outcome.cut,
+            cut_to_boundary(given, policy, tolerance_along_boundary(plan, points), runner.progress, points));
   outcome.points = std::move(points);
-  if (!outcome.points.lines.empty() && (given[kMaxTriangles] || given[kMaxPoints]))
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
-                            "beyond any budget; ask for an error with -e",
-                            *given.first_of({kMaxTriangles, kMaxPoints}), shell_word(base_name(given.input()))));
-  if (!outcome.points.lines.empty() && boundary.length)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} cannot be combined with lines, and {} holds them: they may cross what it "
-                            "takes away; leave it out",
-                            kBoundary, *given[kBoundary], shell_word(base_name(given.input()))));
+  if (!outcome.points.lines.empty()) {
+    const auto option = given.first_of({kWater, kBreaklines});
+    const std::string lines = option ? std::string(name_of(*option))
+                                     : fmt::format("lines, and {} holds them", shell_word(base_name(given.input())));
+    if (const auto budget = given.first_of({kMaxTriangles, kMaxPoints}))
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} cannot be combined with {}: lines need vertices of their own, beyond "
+                              "any budget; ask for an error with -e",
+                              *budget, lines));
+    if (boundary.length)
+      return fail(ErrorKind::kUsage, fmt::format("{} {} cannot be combined with {}: it may take away what lines cross; "
+                                                 "leave it out",
+                                                 kBoundary, *given[kBoundary], lines));
+  }
   SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
     outcome.centre = local_origin(outcome.points);
@@ -363,6 +368,11 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
     asked.set(of.option, Given(entry->second));
     if (!of.is_of_content) of_other_file.set(of.option, Given(entry->second));
   }
+  if (const auto entry = judged.mesh.metadata.find("water"); entry != judged.mesh.metadata.end()) {
+    const Json files = Json::parse(entry->second, nullptr, false);
+    if (files.is_array() && std::all_of(files.begin(), files.end(), [](const Json& file) { return file.is_string(); }))
+      asked.set(kWater, files.get<GivenOptions::Texts>());
+  }
   SCARP_TRY(judged.policy, parse_policy(asked));
   SCARP_TRY(const auto& boundary, parse_boundary(asked));
   const std::string path = given.input();
@@ -375,6 +385,7 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   Cutline ends;
   SCARP_TRY(ends.rings, read_boundary(asked, runner.progress, *points));
   if (!ends.rings.empty()) drop_outside(ends.rings, *points);
+  SCARP_RETURN_IF_ERROR(drop_lakes(asked, runner.progress, *points));
   judged.points = std::move(*points);
   if (!given[kCrs]) put_back(judged.points, judged.mesh);
   if (given[kErrorRaster]) judged.errors = ReadyFile{*given[kErrorRaster], "csv", {}};
@@ -394,14 +405,14 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   const double beyond = judged.fail_above.value_or(std::numeric_limits<double>::infinity());
   SCARP_TRY(const auto& tolerances, read_tolerances(given, beyond, runner.progress, judged.points));
   options.tolerance = tolerances;
+  if (!tolerances.empty()) options.collect_above = std::numeric_limits<double>::infinity();
   judged.has_tolerances = find_tolerance(given).has_value();
   if (judged.errors) collect_errors(judged.points, judged.errors->bytes, options);
   SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
   if (!judged.broken && judged.measured.over_tolerance > 0)
-    judged.broken = fmt::format("the error at {} is above the tolerance there",
-                                format_plural(judged.measured.over_tolerance, "point"));
+    judged.broken = describe_over_tolerance(judged.points, judged.measured);
   if (judged.measured.samples == 0)
     judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), path);
   return {};
