@@ -85,10 +85,12 @@ LentInputs::LentInputs(const scarp_field* given, const scarp_options& asked) {
   }
 }
 
-LentInputs::LentInputs(const scarp_points* given) {
+LentInputs::LentInputs(const scarp_points* given, const scarp_options& asked) {
   const scarp_points points = known(given, scarp_points_init);
   name_ = points.name != nullptr && *points.name != '\0' ? points.name : "points";
   unfit_ = given == nullptr ? "the points are null" : find_fault(points);
+  if (asked.tolerance != nullptr)
+    unfit_ = "tolerance is an array on the grid of a field: for points it is the file of a raster, set by name";
   points_.path = name_;
   points_.format = "memory";
   if (points.crs != nullptr) points_.crs = points.crs;

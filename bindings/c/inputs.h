@@ -13,7 +13,7 @@ namespace scarp::door {
 class LentInputs {
  public:
   LentInputs(const scarp_field* field, const scarp_options& asked);
-  LentInputs(const scarp_points* points);
+  LentInputs(const scarp_points* points, const scarp_options& asked);
 
   /// kUsage for a required pointer that is null or a number out of range.
   Result<void> check() const;

@@ -88,9 +88,10 @@ scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* 
                                   scarp_report* out) {
   return guarded([&]() -> scarp_status {
     if (mesh == nullptr || out == nullptr) return refuse_null_mesh();
-    const LentInputs inputs(points);
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(points, asked);
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    return judge(inputs.name(), true, mesh->mesh, known(options, scarp_options_init), out);
+    return judge(inputs.name(), true, mesh->mesh, asked, out);
   });
 }
 

@@ -193,9 +193,10 @@ scarp_status scarp_simplify_points(const scarp_points* points, const scarp_optio
   return guarded([&]() -> scarp_status {
     if (out == nullptr) return refuse_null_out();
     *out = nullptr;
-    const LentInputs inputs(points);
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(points, asked);
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    return hand_out_mesh(simplify_input(inputs.name(), InputKind::kPoints, known(options, scarp_options_init)), out);
+    return hand_out_mesh(simplify_input(inputs.name(), InputKind::kPoints, asked), out);
   });
 }
 

@@ -9,17 +9,12 @@
 
 namespace scarp {
 
-namespace {
-
-/// The largest float that is at most `value`.
-float round_down(double value) {
+float round_down_to_float(double value) {
   if (value >= std::numeric_limits<float>::max())
     return std::isinf(value) ? std::numeric_limits<float>::infinity() : std::numeric_limits<float>::max();
   const auto rounded = static_cast<float>(value);
   return rounded > value ? std::nextafter(rounded, 0.0f) : rounded;
 }
-
-}  // namespace
 
 double divide_down(double value, double weight) {
   const double quotient = value / weight;
@@ -31,9 +26,11 @@ double tightened(double goal, double reserve) {
   return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
 }
 
-float BoundRule::bound(double asked) const { return round_down(std::isinf(asked) ? asked : tightened(asked, reserve)); }
+float BoundRule::bound(double asked) const {
+  return round_down_to_float(std::isinf(asked) ? asked : tightened(asked, reserve));
+}
 
-float BoundRule::aim_at(float bound) const { return std::isinf(bound) ? bound : round_down(aim * bound); }
+float BoundRule::aim_at(float bound) const { return std::isinf(bound) ? bound : round_down_to_float(aim * bound); }
 
 Error BoundRule::refuse(Point at, double asked) const {
   return {ErrorKind::kPromise,

@@ -11,6 +11,9 @@ namespace scarp {
 /// The largest double whose product with `weight` is at most `value`, as real numbers, or the one below it.
 double divide_down(double value, double weight);
 
+/// The largest float that is at most `value`.
+float round_down_to_float(double value);
+
 /// goal − reserve, rounded down, at least 0.
 double tightened(double goal, double reserve);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/ring_bands.h"
+#include "metric/bound_rule.h"
 #include "scarp/points.h"
 
 namespace scarp {
@@ -14,11 +15,6 @@ namespace scarp {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-float at_most(double value) {
-  const float rounded = static_cast<float>(value);
-  return double{rounded} > value ? std::nextafter(rounded, 0.0f) : rounded;
-}
 
 struct PlaceBox {
   Place low{kFar, kFar}, high{-kFar, -kFar};
@@ -131,7 +127,7 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
   const std::vector<RegionPart> parts = parts_of(regions, falloff);
   const PartGrid grid(parts, points);
   if (found != nullptr) found->assign(regions.size(), false);
-  std::vector<float> tolerances(points.size(), at_most(beyond));
+  std::vector<float> tolerances(points.size(), round_down_to_float(beyond));
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const std::size_t part : grid.at(points.x[i], points.y[i])) {
       const std::size_t region = parts[part].region();
@@ -143,7 +139,7 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
       const double away = parts[part].distance(points.x[i], points.y[i], std::min(most, falloff));
       if (away == kFar) continue;
       const double share = falloff > 0 ? std::min(1.0, away / falloff) : 0;
-      tolerances[i] = std::min(tolerances[i], at_most(share == 0 ? own : own + (beyond - own) * share));
+      tolerances[i] = std::min(tolerances[i], round_down_to_float(share == 0 ? own : own + (beyond - own) * share));
       if (found != nullptr && share < 1) (*found)[region] = true;
     }
   }

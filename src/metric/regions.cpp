@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "grid/column_runs.h"
 #include "grid/line_marks.h"
+#include "metric/bound_rule.h"
 #include "scarp/tolerances.h"
 
 namespace scarp {
@@ -66,11 +67,6 @@ class Envelope {
   std::vector<double> from_;
   std::size_t count_ = 0;
 };
-
-float rounded_down(double value) {
-  const auto rounded = static_cast<float>(value);
-  return double{rounded} > value ? std::nextafter(rounded, 0.0f) : rounded;
-}
 
 /// Width of `falloff` in samples, at most one side.
 std::int32_t reach_of(double falloff, double cell, int side) {
@@ -155,9 +151,9 @@ class RegionSamples {
       float& bound = bounds[at.left + k];
       const double away = std::sqrt(squared);
       if (away == 0)
-        bound = std::min(bound, rounded_down(tolerance_));
+        bound = std::min(bound, round_down_to_float(tolerance_));
       else if (away < grid_.falloff)
-        bound = std::min(bound, rounded_down(tolerance_ + (beyond - tolerance_) * (away / grid_.falloff)));
+        bound = std::min(bound, round_down_to_float(tolerance_ + (beyond - tolerance_) * (away / grid_.falloff)));
     });
   }
 
@@ -172,7 +168,7 @@ class RegionSamples {
 class RegionSource final : public SampleSource {
  public:
   RegionSource(std::vector<RegionSamples> regions, double beyond)
-      : regions_(std::move(regions)), beyond_(rounded_down(beyond)) {}
+      : regions_(std::move(regions)), beyond_(round_down_to_float(beyond)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     for (int y = 0; y < rows; ++y) std::fill_n(out + y * stride, cols, beyond_);

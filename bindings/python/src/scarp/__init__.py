@@ -162,6 +162,8 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     lib = _abi.lib
     if isinstance(max_error, str):
         options["max_error"] = max_error
+    if not isinstance(options.get("tolerance", ""), (str, os.PathLike)):
+        raise UsageError("tolerance of points is the file of a raster, not an array")
     with _call.Settings(options) as settings:
         _goals(settings, max_error, max_triangles, max_points, threads)
         if isinstance(points, (str, bytes, os.PathLike)):
