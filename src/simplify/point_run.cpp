@@ -43,6 +43,7 @@ class PointRun {
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
         reporter_(options_.run.progress) {
+    for (const double z : snapped_.z) largest_height_ = std::max(largest_height_, std::abs(z));
     if (options_.tolerances.empty()) return;
     for (const std::uint32_t source : snapped_.source) bounds_.push_back(recipe_.bound_of(source));
     aims_ = bounds_;
@@ -351,7 +352,7 @@ class PointRun {
   }
 
   /// The judge's own double arithmetic rounds.
-  double allowance() const { return 1e-12 * (bound_ + recipe_.largest); }
+  double allowance() const { return 1e-12 * (bound_ + largest_height_); }
 
   std::string describe_broken(const Measurement& m) const {
     if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
@@ -412,7 +413,7 @@ class PointRun {
   double width_;
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
-  double thinnest_border_ = 0;
+  double largest_height_ = 0, thinnest_border_ = 0;
   std::vector<double> bounds_, aims_;  ///< by point, with tolerances: its bound, and that for fitting
   ScatteredDomain domain_;
   std::size_t seeds_;
