@@ -72,16 +72,18 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent
   }
   Snapped snapped;
   snapped.at.reserve(points.size());
-  std::int64_t common = 0;
+  std::int32_t common = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::int64_t u = 0, v = 0;
     if (!decimals->read(points.x[i], u) || !decimals->read(points.y[i], v)) return std::nullopt;
-    if (common != 1) common = std::gcd(common, std::gcd(u - west, north - v));
-    snapped.at.push_back({static_cast<std::int32_t>(u - west), static_cast<std::int32_t>(north - v)});
+    const Point p{static_cast<std::int32_t>(u - west), static_cast<std::int32_t>(north - v)};
+    if (common == 0 || p.x % common != 0 || p.y % common != 0) common = std::gcd(common, std::gcd(p.x, p.y));
+    snapped.at.push_back(p);
   }
   if (common == 0) common = 1;  // one place
-  const auto stride = static_cast<std::int32_t>(common);
-  for (Point& p : snapped.at) p = {p.x / stride, p.y / stride};
+  if (common > 1) {
+    for (Point& p : snapped.at) p = {p.x / common, p.y / common};
+  }
   const auto multiple = static_cast<double>(common);
   snapped.lattice = {decimals->digits >= 0 ? multiple / decimals->power : multiple * decimals->power,
                      static_cast<std::int32_t>((east - west) / common) + 1,
