@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the code of docs/guide/python.md, bindings/python/README.md and README.md from top to bottom in a folder with
-the examples.
+"""Runs the code of docs/guide/python.md and robotics.md, bindings/python/README.md and README.md from top to bottom in a
+folder with the examples.
 
 usage: tools/python_guide.py [--pictures]     --pictures: saves its pictures in docs/guide/images
 
@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 root = pathlib.Path(__file__).resolve().parent.parent
 guide = (root / "docs" / "guide" / "python.md").read_text()
 blocks = re.findall(r"```python\n(.*?)```", guide, re.S)
-readmes = [re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.S) for page in ("bindings/python/README.md", "README.md")]
+readmes = [re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.S) for page in ("docs/guide/robotics.md", "bindings/python/README.md", "README.md")]
 with tempfile.TemporaryDirectory() as folder:
     for example in (root / "data" / "examples").iterdir():
         shutil.copy(example, folder)

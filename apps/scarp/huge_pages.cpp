@@ -1,5 +1,5 @@
-// The program's memory: large blocks on huge pages, where the system grants them on request. A page fault for each
-// 4 kB took a quarter to a half of a run's time (bench/performance.md).
+// The program's memory: large blocks on huge pages, where the system grants them on request. With pages of
+// 4 kB, page faults cost a quarter to a half of a run's time (bench/performance.md).
 #include <sys/mman.h>
 
 #include <cstddef>

@@ -47,6 +47,8 @@ constexpr const char* name_of(const scarp_points*) { return "scarp_points"; }
 constexpr const char* name_of(const scarp_options*) { return "scarp_options"; }
 constexpr const char* name_of(const scarp_report*) { return "scarp_report"; }
 constexpr const char* name_of(const scarp_volumes*) { return "scarp_volumes"; }
+constexpr const char* name_of(const scarp_live_options*) { return "scarp_live_options"; }
+constexpr const char* name_of(const scarp_live_cell*) { return "scarp_live_cell"; }
 
 /// True if a size can be that of a struct, of any version.
 constexpr bool is_struct_size(std::uint32_t size) {

@@ -49,6 +49,16 @@ std::string describe_all() {
                           AT(scarp_report, p50),           AT(scarp_report, p95),
                           AT(scarp_report, p99),           AT(scarp_report, seconds)}) +
          describe_struct(
+             "scarp_live_options", sizeof(scarp_live_options),
+             {AT(scarp_live_options, struct_size), AT(scarp_live_options, threads), AT(scarp_live_options, max_error),
+              AT(scarp_live_options, effort), AT(scarp_live_options, cell), AT(scarp_live_options, col),
+              AT(scarp_live_options, row), AT(scarp_live_options, tolerance)}) +
+         describe_struct("scarp_live_cell", sizeof(scarp_live_cell),
+                         {AT(scarp_live_cell, struct_size), AT(scarp_live_cell, slot), AT(scarp_live_cell, version),
+                          AT(scarp_live_cell, col), AT(scarp_live_cell, row), AT(scarp_live_cell, vertices),
+                          AT(scarp_live_cell, triangles), AT(scarp_live_cell, positions), AT(scarp_live_cell, indices),
+                          AT(scarp_live_cell, max_error)}) +
+         describe_struct(
              "scarp_volumes", sizeof(scarp_volumes),
              {AT(scarp_volumes, struct_size), AT(scarp_volumes, reserved), AT(scarp_volumes, cut),
               AT(scarp_volumes, fill), AT(scarp_volumes, net), AT(scarp_volumes, uncertainty),

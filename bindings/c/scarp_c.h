@@ -50,6 +50,8 @@ typedef int32_t scarp_status;
 
 typedef struct scarp_mesh scarp_mesh;         /* a mesh, its options, and its measured error */
 typedef struct scarp_refiner scarp_refiner;   /* a mesh that grows by one vertex at a time */
+typedef struct scarp_live scarp_live;         /* a field that changes, and its mesh */
+typedef struct scarp_changes scarp_changes;   /* cells of a live field that changed */
 typedef struct scarp_raster scarp_raster;     /* a raster read from a file */
 typedef struct scarp_tiles scarp_tiles;       /* terrain tiles for globes, made on request */
 typedef struct scarp_bytes scarp_bytes;       /* the bytes of a file */
@@ -132,6 +134,29 @@ typedef struct scarp_report {
   double max_error, rmse, mean_error, mean_abs_error, p50, p95, p99;
   double seconds;
 } scarp_report;
+
+/* Settings of a live field. */
+typedef struct scarp_live_options {
+  uint32_t struct_size;
+  int32_t threads;        /* for an update that touches several cells; never changes the result. DEFAULT: 1. */
+  double max_error;       /* in z units, at least 0. DEFAULT: 0. */
+  int32_t effort;         /* 0 fast, 1 normal, 2 high. DEFAULT: 0. */
+  int32_t cell;           /* samples along a cell, 8 to 255. DEFAULT: 0, which is 32 with fast, else 64. */
+  int32_t col, row;       /* the field's first sample on the lattice of cells. DEFAULT: 0. */
+  const float* tolerance; /* NULL, or a bound for each sample of the field */
+} scarp_live_options;
+
+/* The mesh of a cell; the pointers are those of the scarp_changes. */
+typedef struct scarp_live_cell {
+  uint32_t struct_size;
+  uint32_t slot;                /* its place in a renderer's buffer: at most one cell has it */
+  uint64_t version;             /* the change that made it */
+  int32_t col, row;             /* its first sample, on the lattice of cells */
+  uint32_t vertices, triangles; /* 0 triangles: the cell has no surface */
+  const float* positions;       /* 3 a vertex: columns east and rows north of the first sample (y <= 0), height */
+  const uint16_t* indices;      /* 3 a triangle, counter-clockwise from above where rows run south */
+  double max_error;             /* measured */
+} scarp_live_cell;
 
 /* The library. */
 uint32_t scarp_abi_version(void);
@@ -251,6 +276,36 @@ uint64_t scarp_refiner_vertex_count(const scarp_refiner* refiner);
 uint64_t scarp_refiner_triangle_count(const scarp_refiner* refiner);
 scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out);
 void scarp_refiner_free(scarp_refiner* refiner);
+
+/* A field that changes many times a second: an update makes only the cells anew that it touches. The field is copied.
+ * One thread at a time may change it, a second one gets an error; others may call scarp_live_changes(), _mesh() and the
+ * counts meanwhile. A failed call changes nothing. The mesh has the bytes of a field made from the final samples at
+ * the same col and row. */
+void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
+scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
+/* Replaces a window of cols * rows samples, row by row; NaN is a void. `tolerance`: NULL (they stay), or as many. */
+scarp_status scarp_live_update(scarp_live* live, int32_t col, int32_t row, int32_t cols, int32_t rows,
+                               const float* heights, const float* tolerance);
+/* Moves the field so many columns east and rows down; what enters is void until an update. */
+scarp_status scarp_live_scroll(scarp_live* live, int32_t cols, int32_t rows);
+/* The cells that changed after the version `since` (0: all), those that became empty included, by slot. */
+scarp_status scarp_live_changes(const scarp_live* live, uint64_t since, scarp_changes** out);
+uint64_t scarp_changes_version(const scarp_changes* changes); /* for the next call */
+uint64_t scarp_changes_count(const scarp_changes* changes);
+/* Fills `out`, whose struct_size the caller sets. */
+scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, scarp_live_cell* out);
+void scarp_changes_free(scarp_changes* changes);
+/* The whole as one mesh, in coordinates that stay while the field moves. */
+scarp_status scarp_live_mesh(const scarp_live* live, scarp_mesh** out);
+/* Fills `out` with the current cols * rows samples. */
+scarp_status scarp_live_heights(const scarp_live* live, float* out);
+void scarp_live_place(const scarp_live* live, int32_t* col, int32_t* row);
+/* The geotransform of the field where it lies now, in the coordinates of the mesh: for scarp_measure(). */
+void scarp_live_geotransform(const scarp_live* live, double out[6]);
+double scarp_live_max_error(const scarp_live* live); /* the largest of a cell */
+uint64_t scarp_live_triangle_count(const scarp_live* live);
+uint32_t scarp_live_slot_count(const scarp_live* live);
+void scarp_live_free(scarp_live* live);
 
 /* Reads a raster by the options ("band", "nodata", "crs", "z_scale" ...). */
 scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out);

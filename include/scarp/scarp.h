@@ -13,6 +13,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/lines.h"
+#include "scarp/live.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/options.h"

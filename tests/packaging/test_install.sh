@@ -53,6 +53,9 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
   (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
+  # shellcheck disable=SC2046
+  c++ -std=c++20 -Wall -Wextra -Werror "$source_tree/examples/live/rolling_map.cpp" -o "$scratch/rolling_map" $(pkg-config --cflags --libs scarp)
+  (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./rolling_map 2 map.glb >rolling.log && grep 'sound: yes' rolling.log) || fail "examples/live"
   # The examples of the headers, in a folder with their files.
   # shellcheck disable=SC2046
   c++ "$examples"/*.o -o "$examples/run" $(pkg-config --libs scarp)

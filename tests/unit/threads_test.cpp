@@ -20,6 +20,7 @@
 
 #include "base/parallel.h"
 #include "scarp/io.h"
+#include "scarp/live.h"
 #include "scarp/simplify.h"
 #include "source_dir.h"
 
@@ -409,6 +410,60 @@ TEST(Threads, ReadersMayRunAtOnce) {
   const Result<Simplified> mesh = simplify(*a, {.goals = {.max_error = 40.0}, .run = {.threads = 4}});
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_LE(mesh->measurement.max_error, 40.0);
+}
+
+TEST(Threads, ReadersOfALiveFieldSeeOneStateOrTheOther) {
+  const OwnedHeightField field = make_waves(70, 50);
+  OwnedHeightField other = field;
+  for (float& z : other.samples) z *= -2;
+  auto live = LiveField::create(field.view(), {.max_error = 0.5, .threads = 2});
+  ASSERT_TRUE(live) << live.error().message;
+  const auto write = [&](const OwnedHeightField& from) {
+    const auto written = live->update({0, 0, 70, 50}, from.samples);
+    EXPECT_TRUE(written.has_value());
+    return live->mesh().positions;
+  };
+  const std::vector<double> first = live->mesh().positions, second = write(other);
+  ASSERT_NE(first, second);
+  std::atomic<bool> is_done = false;
+  std::atomic<int> faults = 0;
+  std::vector<std::thread> readers;
+  for (int k = 0; k < 4; ++k) {
+    readers.emplace_back([&] {
+      std::uint64_t version = 0;
+      while (!is_done) {
+        const std::vector<double> seen = live->mesh().positions;
+        const LiveChanges changes = live->changes(version);
+        if ((seen != first && seen != second) || changes.version < version) ++faults;
+        version = changes.version;
+      }
+    });
+  }
+  for (int k = 0; k < 20; ++k) write(k % 2 == 0 ? field : other);
+  is_done = true;
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_EQ(faults, 0);
+}
+
+TEST(Threads, OneThreadAtATimeChangesALiveField) {
+  const OwnedHeightField field = make_waves(200, 200);
+  auto live = LiveField::create(field.view(), {.max_error = 0.1});
+  ASSERT_TRUE(live) << live.error().message;
+  std::atomic<int> refused = 0;
+  std::vector<std::thread> writers;
+  for (int k = 0; k < 2; ++k) {
+    writers.emplace_back([&, k] {
+      for (int turn = 0; turn < 50; ++turn) {
+        const auto written =
+            live->update({0, 0, 150, 150}, std::vector<float>(150 * 150, static_cast<float>(k + turn)));
+        if (written) continue;
+        EXPECT_NE(written.error().message.find("another thread changes the live field"), std::string::npos);
+        ++refused;
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_TRUE(live->set(3, 3, 7).has_value()) << refused << " were refused";
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ from . import _abi, _call, _inputs, _raster, _values
 from ._call import Progress
 from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseError, ScarpError, ScarpWarning,
                      UsageError)
+from .live import Cell, Changes, Live
 from .mesh import Mesh, Report, Volumes, read_mesh, report_of
 from .refiner import Refiner
 from .tiles import Tiles, tile
@@ -37,7 +38,8 @@ __version__: str = _abi.lib.scarp_version().decode()
 #: True if the library reads GDAL's formats and knows CRSs. Else rasterio or GDAL's own Python reads paths.
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
-__all__ = ["simplify", "simplify_points", "measure", "volume", "read_mesh", "Mesh", "Report", "Volumes", "Refiner", "Tiles", "tile",
+__all__ = ["simplify", "simplify_points", "measure", "volume", "read_mesh", "Mesh", "Report", "Volumes", "Refiner", "Live", "Cell",
+           "Changes", "Tiles", "tile",
            "Progress", "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
            "ScarpWarning", "has_gdal", "__version__"]
 

@@ -72,8 +72,20 @@ class Volumes(C.Structure):
                                                    "to_outside")])
 
 
+class LiveOptions(C.Structure):
+    _fields_ = [("struct_size", C.c_uint32), ("threads", C.c_int32), ("max_error", C.c_double), ("effort", C.c_int32),
+                ("cell", C.c_int32), ("col", C.c_int32), ("row", C.c_int32), ("tolerance", C.c_void_p)]
+
+
+class LiveCell(C.Structure):
+    _fields_ = [("struct_size", C.c_uint32), ("slot", C.c_uint32), ("version", C.c_uint64), ("col", C.c_int32),
+                ("row", C.c_int32), ("vertices", C.c_uint32), ("triangles", C.c_uint32), ("positions", C.c_void_p),
+                ("indices", C.c_void_p), ("max_error", C.c_double)]
+
+
 STRUCTS = {"scarp_progress": Progress, "scarp_field": Field, "scarp_points": Points, "scarp_options": Options,
-           "scarp_report": Report, "scarp_volumes": Volumes}
+           "scarp_report": Report, "scarp_volumes": Volumes, "scarp_live_options": LiveOptions,
+           "scarp_live_cell": LiveCell}
 
 _P, _S, _I, _D, _U, _T = C.c_void_p, C.c_char_p, C.c_int32, C.c_double, C.c_uint64, C.c_uint32
 _FUNCTIONS = {
@@ -124,6 +136,23 @@ _FUNCTIONS = {
     "scarp_refiner_triangle_count": (_U, [_P]),
     "scarp_refiner_mesh": (_I, [_P, _P]),
     "scarp_refiner_free": (None, [_P]),
+    "scarp_live_options_init": (None, [_P, _T]),
+    "scarp_live_create": (_I, [_P, _P, _P]),
+    "scarp_live_update": (_I, [_P, _I, _I, _I, _I, _P, _P]),
+    "scarp_live_scroll": (_I, [_P, _I, _I]),
+    "scarp_live_changes": (_I, [_P, _U, _P]),
+    "scarp_live_mesh": (_I, [_P, _P]),
+    "scarp_live_heights": (_I, [_P, _P]),
+    "scarp_live_place": (None, [_P, _P, _P]),
+    "scarp_live_geotransform": (None, [_P, _P]),
+    "scarp_live_max_error": (_D, [_P]),
+    "scarp_live_triangle_count": (_U, [_P]),
+    "scarp_live_slot_count": (_T, [_P]),
+    "scarp_live_free": (None, [_P]),
+    "scarp_changes_version": (_U, [_P]),
+    "scarp_changes_count": (_U, [_P]),
+    "scarp_changes_cell": (_I, [_P, _U, _P]),
+    "scarp_changes_free": (None, [_P]),
     "scarp_tile": (_I, [_P, _P, _S, _I, _P]),
     "scarp_tile_files": (_I, [_P, _U, _P, _S, _I, _P]),
     "scarp_tiles_open": (_I, [_S, _P, _P]),

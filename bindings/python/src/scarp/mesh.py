@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 from . import _abi, _values
+from ._raster import numpy_if_there
 from .errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -68,11 +69,19 @@ _Point = C.c_double * 3
 
 
 class _Memory:
-    """A pointer into a mesh, for numpy: keeps the mesh alive."""
+    """A pointer for numpy; keeps the owner of the memory alive."""
 
     def __init__(self, owner: object, address: int, shape: tuple[int, ...], kind: str) -> None:
         self.owner = owner
         self.__array_interface__ = {"version": 3, "data": (address, True), "shape": shape, "typestr": kind}
+
+
+def memory_of(owner: object, address: Optional[int], shape: tuple[int, int], kind: str) -> Any:
+    """A read-only array of numpy on memory that `owner` keeps."""
+    import numpy as np
+    if not address:
+        return np.empty(shape, kind)
+    return np.asarray(_Memory(owner, address, shape, kind))
 
 
 class Mesh:
@@ -122,15 +131,13 @@ class Mesh:
     def _view(self, address: Optional[int], rows: int, columns: int, kind: str) -> Any:
         if not address:
             return None
-        try:
-            import numpy as np
-        except ImportError:
+        if numpy_if_there() is None:
             item: Any = {"<f8": C.c_double, "<f4": C.c_float, "<u4": C.c_uint32}[kind]
             array = (item * (rows * columns)).from_address(address)
             setattr(array, "_keep", self)
             code = {"<f8": "d", "<f4": "f", "<u4": "I"}[kind]
             return memoryview(array).toreadonly().cast("B").cast(code, (rows, columns))
-        return np.asarray(_Memory(self, address, (rows, columns), kind))
+        return memory_of(self, address, (rows, columns), kind)
 
     @property
     def vertex_count(self) -> int:

@@ -1,0 +1,105 @@
+// Times the updates of live fields, on one thread, by effort and cell size, against one simplify() of the whole field.
+//
+//   speed_live [RASTER COLS ROWS] [--error E] [--window N] [--updates N] [--cells N...]
+//
+// Without a raster: an elevation map of 500 × 500 cells of 5 cm, boxes on a floor with 5 mm of noise, and holes; errors
+// of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's own, with fresh noise of a
+// quarter of the error. CSV: milliseconds of CPU time of an update (mean, 99th percentile, worst), of simplify() on the
+// whole, and triangles of both.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "field.h"
+#include "scarp/live.h"
+#include "scarp/simplify.h"
+
+namespace {
+
+bench::RawRaster make_map(std::uint32_t seed) {
+  bench::RawRaster map{{}, 500, 500};
+  std::mt19937 random(seed);
+  const auto uniform = [&] { return static_cast<float>(random()) / 4294967296.0f; };
+  for (int k = 0; k < map.cols * map.rows; ++k)
+    map.samples.push_back(0.01f * (uniform() + uniform() + uniform() - 1.5f));  // 5 mm
+  const auto fill = [&](int count, int least, int most, auto height) {
+    for (int k = 0; k < count; ++k) {
+      const int cols = least + static_cast<int>(uniform() * static_cast<float>(most - least)), rows = cols;
+      const int col = static_cast<int>(uniform() * static_cast<float>(map.cols - cols));
+      const int row = static_cast<int>(uniform() * static_cast<float>(map.rows - rows));
+      const float add = height();
+      for (int y = row; y < row + rows; ++y) {
+        for (int x = col; x < col + cols; ++x) map.samples[static_cast<std::size_t>(y * map.cols + x)] += add;
+      }
+    }
+  };
+  fill(60, 8, 40, uniform);
+  fill(30, 2, 9, [] { return std::numeric_limits<float>::quiet_NaN(); });
+  return map;
+}
+
+struct Bench {
+  const bench::RawRaster& raster;
+  double error;
+  int window, updates;
+
+  void run(const std::string& effort, int cell) const {
+    const scarp::HeightField field = bench::field_of(raster);
+    scarp::SimplifyOptions whole;
+    whole.goals.max_error = error;
+    whole.quality.effort = bench::effort_of(effort);
+    whole.run.threads = 1;
+    const bench::Stopwatch once;
+    const auto mesh = bench::check(scarp::simplify(field, whole));
+    const double whole_ms = 1e3 * once.read().cpu();
+    scarp::LiveField live =
+        bench::check(scarp::LiveField::create(field, {error, bench::effort_of(effort), cell, 1, {}}));
+    const std::uint64_t triangles = live.triangle_count();
+    std::mt19937 random(1);
+    std::vector<double> milliseconds;
+    for (int k = 0; k < updates; ++k) {
+      const int col = static_cast<int>(random() % static_cast<unsigned>(raster.cols - window + 1));
+      const int row = static_cast<int>(random() % static_cast<unsigned>(raster.rows - window + 1));
+      bench::RawRaster part = bench::window_of(raster, col, row, window, window);
+      for (float& z : part.samples)
+        z += static_cast<float>(error * (static_cast<double>(random()) / 4294967296.0 - 0.5) / 4);
+      const bench::Stopwatch watch;
+      const auto updated = live.update({col, row, window, window}, part.samples);
+      milliseconds.push_back(1e3 * watch.read().cpu());
+      if (!updated) bench::die(updated.error().message);
+    }
+    std::sort(milliseconds.begin(), milliseconds.end());
+    double sum = 0;
+    for (const double one : milliseconds) sum += one;
+    const std::size_t last = milliseconds.size() - 1;
+    std::printf("%s,%d,%d,%d,%g,%.3f,%.3f,%.3f,%.1f,%llu,%zu,%.3f\n", effort.c_str(), raster.cols, window, cell, error,
+                sum / static_cast<double>(milliseconds.size()), milliseconds[last * 99 / 100], milliseconds[last],
+                whole_ms, static_cast<unsigned long long>(triangles), mesh.mesh.triangle_count(),
+                static_cast<double>(triangles) / static_cast<double>(mesh.mesh.triangle_count()));
+    std::fflush(stdout);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bench::Arguments arguments(
+      argc, argv, "speed_live [RASTER] [COLS] [ROWS] [--error E] [--window N] [--updates N] [--cells N...]");
+  const bool has_raster = arguments.count() == 3;
+  const bench::RawRaster raster = has_raster ? bench::read_raw(arguments) : make_map(3);
+  const double error = arguments.number("--error", 0.02);
+  const Bench bench{raster, error, arguments.number("--window", 50), arguments.number("--updates", 500)};
+  std::vector<int> cells;
+  for (const std::string& cell : arguments.values("--cells")) cells.push_back(std::stoi(cell));
+  if (cells.empty()) cells = {32, 48, 64, 96, 128};
+  std::printf(
+      "effort,field,window,cell,error,mean_ms,p99_ms,worst_ms,whole_ms,triangles,whole_triangles,triangle_ratio\n");
+  for (const std::string effort : {"fast", "normal", "high"}) {
+    for (const int cell : cells) bench.run(effort, cell);
+  }
+}

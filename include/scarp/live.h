@@ -1,0 +1,141 @@
+// Keep the mesh of a height field that changes many times a second: a robot's elevation map, a terrain that is dug or
+// painted, the surface of a simulation. An update makes only the cells anew that it touches.
+//
+// Example:
+//     const std::vector<float> flat(500 * 500, 0.0f), bump(50 * 50, 0.3f);
+//     scarp::HeightField map;
+//     map.samples = flat.data();
+//     map.cols = map.rows = 500;
+//     SCARP_TRY(auto&& live, scarp::LiveField::create(map, {.max_error = 0.05}));
+//     SCARP_RETURN_IF_ERROR(live.update({.col = 200, .row = 100, .cols = 50, .rows = 50}, bump));
+//     for (const auto& cell : live.changes().cells)
+//       std::printf("slot %u: %zu triangles\n", cell->slot, cell->triangle_count());
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/mesh.h"
+#include "scarp/options.h"
+#include "scarp/result.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+struct LiveOptions {
+  double max_error = 0;           ///< vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample
+  Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
+  /// Samples along the side of a cell, 8 to 255. Small cells take less time and, above fast effort, more triangles
+  /// (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
+  int cell = 0;
+  /// Threads of an update that touches several cells, as Run::threads. Never changes the result.
+  int threads = 1;
+  /// Place of the field's first sample on the lattice of cells; a lattice line of cells runs through sample (0, 0).
+  /// A field that was scrolled equals a new field at its place.
+  SampleAt place = {};
+};
+
+/// A rectangle of samples. Columns and rows count from the field's first sample.
+struct LiveWindow {
+  int col = 0, row = 0, cols = 0, rows = 0;
+};
+
+/// The mesh of a cell: a square of one sample more than LiveOptions::cell a side, of which the last row and column are
+/// also those of the next cells. Immutable.
+struct LiveCell {
+  /// Where a renderer keeps the cell; at most one cell of the field has it. Slots count from 0 to
+  /// LiveField::slot_count() − 1 and stay the same while the field moves.
+  std::uint32_t slot = 0;
+  std::uint64_t version = 0;  ///< of the change that made it
+  SampleAt place = {};        ///< the cell's first sample, on the lattice of LiveOptions::place
+  /// Three for each vertex: columns east and rows north of the first sample (so y <= 0), and the height. Whole numbers,
+  /// or with kHigh eighths. Vertices on the cell's border are samples, and the neighbours have the same.
+  std::vector<float> positions;
+  /// Three for each triangle, counter-clockwise from above, in an order good for a GPU. Empty: the cell has no surface.
+  std::vector<std::uint16_t> triangles;
+  double max_error = 0;  ///< measured
+
+  std::size_t vertex_count() const { return positions.size() / 3; }
+  std::size_t triangle_count() const { return triangles.size() / 3; }
+};
+
+struct LiveChanges {
+  std::uint64_t version = 0;                           ///< for the next call of changes()
+  std::vector<std::shared_ptr<const LiveCell>> cells;  ///< by slot
+};
+
+/// A height field and its mesh.
+///
+/// Cells lie on a fixed lattice. A cell's mesh depends on its samples, on the validity of the samples around it, and on
+/// the options only; its border is a locked border (Border) whose line depends on the border's samples and the validity
+/// of those next to it. So, after any sequence of changes, the mesh has the same bytes as that of a new field with the
+/// final samples at the same place, for any number of threads.
+///
+/// Guarantee after each change: the guarantees of simplify() hold for every cell, hence for the field; the domain is
+/// that of simplify() for the whole field. Neighbouring cells share the vertices of their border: no cracks.
+///
+/// Samples: NaN and infinities are voids. Tolerances, if the field has them, are bounds of samples as in
+/// Tolerances::values. Frames: affine. Fields with channels or a source fail with kUsage.
+///
+/// Threads: one thread at a time may change the field; a second one gets an error. Any number may call changes(),
+/// mesh(), max_error() and triangle_count() meanwhile: they see the state before or after a change, and a lock is held
+/// only while pointers are copied.
+///
+/// Errors: kUsage for windows outside the field and arrays of the wrong size, and those of simplify(). The field is
+/// then unchanged.
+///
+/// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
+/// cell's size); independent of the size of the field, except for reading its list of cells: some 1 ns a cell.
+/// Memory: 4 bytes a sample (8 with tolerances), and the cells' meshes.
+class LiveField {
+ public:
+  /// Copies the samples, and makes all cells. `tolerances`: one for each sample, or none.
+  static Result<LiveField> create(const HeightField& field, const LiveOptions& options,
+                                  std::span<const float> tolerances = {});
+  LiveField(LiveField&&) noexcept;
+  LiveField& operator=(LiveField&&) noexcept;
+  ~LiveField();
+
+  /// Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay).
+  /// Equal samples cost nothing.
+  Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {});
+  /// Replaces one sample.
+  Result<void> set(int col, int row, float height);
+  /// Moves the field over the ground, so many columns east and rows down; the samples that it then still covers stay
+  /// and are not copied. The others are voids until an update, without a tolerance of their own.
+  Result<void> scroll(int cols, int rows);
+
+  /// The cells that changed after the version `since` (0: all), those that became empty included.
+  LiveChanges changes(std::uint64_t since = 0) const;
+  /// The cells as one mesh, with double positions, in coordinates that stay while the field moves: those of the frame
+  /// that it was made with. Vertices on borders of cells are shared. Judge it in frame().
+  Mesh mesh() const;
+  /// The largest error of a cell.
+  double max_error() const;
+  std::uint64_t triangle_count() const;
+  std::uint32_t slot_count() const;
+
+  /// The current samples, row by row. Fails with kUsage during a change.
+  Result<std::vector<float>> heights() const;
+  /// Where the first sample lies now, on the lattice of LiveOptions::place.
+  SampleAt place() const;
+  /// The frame of the field where it lies now: sample (0, 0) is the first. Cell positions in it:
+  /// apply_affine(cell.place − place() + (x, −y)).
+  Frame frame() const;
+  int cols() const;
+  int rows() const;
+
+ private:
+  struct Impl;
+  explicit LiveField(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

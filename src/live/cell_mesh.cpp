@@ -1,0 +1,130 @@
+#include "live/cell_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scarp/simplify.h"
+
+namespace scarp::live {
+
+namespace {
+
+/// The samples along a border, and along the rows or columns on either side of it.
+class BorderRows {
+ public:
+  /// `first`: index of the border's first sample; `step`: to the next one; `across`: to the other side.
+  BorderRows(const CellSamples& samples, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t across,
+             std::int32_t count) {
+    for (std::int32_t k = 0; k < count; ++k, first += step) {
+      heights_.push_back(samples.heights[std::size_t(first)]);
+      if (!samples.tolerances.empty()) bounds_.push_back(samples.tolerances[std::size_t(first)]);
+      for (std::size_t side = 0; side < 2; ++side)
+        valid_[side].push_back(!std::isnan(samples.heights[std::size_t(side == 0 ? first - across : first + across)]));
+    }
+  }
+
+  /// Fewest vertices between those that both cells need where voids begin or end next to the border.
+  std::vector<std::int32_t> simplify(double tolerance) {
+    for (double& bound : bounds_) bound = std::min(bound, tolerance);
+    std::vector<std::int32_t> line;
+    std::size_t begin = 0;
+    for (std::size_t k = 1; k < heights_.size(); ++k) {
+      if (k + 1 < heights_.size() && !is_corner(k)) continue;
+      const std::size_t count = k - begin + 1;
+      const std::span<const double> bounds =
+          bounds_.empty() ? std::span<const double>() : std::span(bounds_).subspan(begin, count);
+      for (const std::int32_t at : simplify_edge(std::span(heights_).subspan(begin, count), tolerance, bounds)) {
+        const std::int32_t vertex = at + static_cast<std::int32_t>(begin);
+        if (line.empty() || line.back() < vertex) line.push_back(vertex);
+      }
+      begin = k;
+    }
+    return line;
+  }
+
+ private:
+  /// An outline of voids may leave the border there.
+  bool is_corner(std::size_t k) const {
+    return !std::isnan(heights_[k]) && std::any_of(valid_.begin(), valid_.end(), [k](const auto& valid) {
+      return valid[k - 1] != valid[k] || valid[k] != valid[k + 1];
+    });
+  }
+
+  std::vector<float> heights_;
+  std::vector<double> bounds_;
+  std::array<std::vector<std::uint8_t>, 2> valid_;
+};
+
+EdgeVertices find_borders(const CellSamples& samples, double tolerance) {
+  const std::ptrdiff_t row = samples.cell.cols() + 2, east = samples.cell.cols(), south = samples.cell.rows() * row;
+  const auto along_row = [&](std::ptrdiff_t first) {
+    return BorderRows(samples, first, 1, row, samples.cell.cols()).simplify(tolerance);
+  };
+  const auto along_column = [&](std::ptrdiff_t first) {
+    return BorderRows(samples, first, row, 1, samples.cell.rows()).simplify(tolerance);
+  };
+  return {along_row(row + 1), along_row(south + 1), along_column(row + 1), along_column(row + east)};
+}
+
+std::vector<float> crop(std::span<const float> grown, std::int32_t cols, std::int32_t rows) {
+  std::vector<float> values;
+  values.reserve(std::size_t(cols) * std::size_t(rows));
+  for (std::int32_t row = 1; row <= rows; ++row) {
+    const auto first = grown.begin() + std::ptrdiff_t(row) * (cols + 2) + 1;
+    values.insert(values.end(), first, first + cols);
+  }
+  return values;
+}
+
+/// True if three samples of a grid cell are valid somewhere.
+bool has_surface(std::span<const float> heights, std::int32_t cols, std::int32_t rows) {
+  for (std::int32_t row = 0; row + 1 < rows; ++row) {
+    const float* const upper = &heights[std::size_t(row) * std::size_t(cols)];
+    const float* const lower = upper + cols;
+    for (std::int32_t col = 0; col + 1 < cols; ++col) {
+      const int voids =
+          std::isnan(upper[col]) + std::isnan(upper[col + 1]) + std::isnan(lower[col]) + std::isnan(lower[col + 1]);
+      if (voids <= 1) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const LiveOptions& options,
+                           double sample_rounding) {
+  LiveCell cell;
+  cell.place = place;
+  const std::int32_t cols = samples.cell.cols(), rows = samples.cell.rows();
+  const std::vector<float> heights = crop(samples.heights, cols, rows);
+  if (!has_surface(heights, cols, rows)) return cell;
+  HeightField field;
+  field.samples = heights.data();
+  field.cols = cols;
+  field.rows = rows;
+  field.sample_rounding = sample_rounding;
+  field.frame.affine = {double(samples.cell.west - place.col), 1, 0, double(place.row - samples.cell.north), 0, -1};
+  std::vector<float> tolerances;
+  if (!samples.tolerances.empty()) tolerances = crop(samples.tolerances, cols, rows);
+  SimplifyOptions asked;
+  asked.goals.max_error = options.max_error;
+  asked.tolerances.values = tolerances;
+  asked.quality.effort = options.effort;
+  asked.domain.border.is_locked = true;
+  asked.domain.border.vertices = find_borders(samples, std::max(0.0, options.max_error - sample_rounding));
+  asked.run.threads = 1;
+  SCARP_TRY(const auto& made, scarp::simplify(field, asked));
+  for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
+    for (const double coordinate : made.mesh.vertex(v)) cell.positions.push_back(static_cast<float>(coordinate));
+  }
+  cell.triangles.assign(made.mesh.triangles.begin(), made.mesh.triangles.end());
+  cell.max_error = made.measurement.max_error;
+  return cell;
+}
+
+}  // namespace scarp::live

@@ -1,0 +1,31 @@
+// The mesh of one cell: a pure function of the samples in it and of the validity of those around it.
+//
+//     ●──────●───────●      ● corners and vertices of the borders' lines, which depend on samples that both cells have
+//     │  cell    cell │     · a void next to the border: its corners on the border are vertices for both cells
+//     ●───·●─●───────●
+//     │    ··    cell │
+//     ●──────●───────●
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "live/sample_ring.h"
+#include "scarp/live.h"
+#include "scarp/result.h"
+
+namespace scarp::live {
+
+/// Samples of a cell and one more on each side, row by row; those outside the field are NaN.
+struct CellSamples {
+  Area cell;                          ///< clipped to the field
+  std::span<const float> heights;     ///< of cell.grown(1)
+  std::span<const float> tolerances;  ///< of cell.grown(1), or empty
+};
+
+/// `place`: the first sample of the whole cell, which the field may clip. Slot and version are not set. Fails as
+/// simplify() does.
+Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const LiveOptions& options,
+                           double sample_rounding);
+
+}  // namespace scarp::live
