@@ -168,7 +168,7 @@ void scarp_live_place(const scarp_live* live, int32_t* col, int32_t* row) {
 }
 
 void scarp_live_geotransform(const scarp_live* live, double out[6]) {
-  const std::array<double, 6> to = live->field.frame().affine;  // of centres
+  const std::array<double, 6> to = live->field.frame().affine;  // for centres
   std::copy(to.begin(), to.end(), out);
   out[0] -= (to[1] + to[2]) / 2;
   out[3] -= (to[4] + to[5]) / 2;

@@ -24,7 +24,7 @@ double ground(double x, double y) {
   return 0.3 * std::sin(0.5 * x) * std::cos(0.4 * y) + (std::fmod(x + 400, 4.0) < 2 ? 0.15 : 0.0);
 }
 
-/// What a scan measured: a window of the map; cells that it did not reach are unknown.
+/// A window of the map, as measured; cells that the sensor did not reach are unknown.
 struct Scan {
   scarp::LiveWindow window;
   std::vector<float> heights;

@@ -30,7 +30,7 @@ namespace scarp {
 struct LiveOptions {
   double max_error = 0;           ///< vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample
   Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
-  /// Samples along the side of a cell, 8 to 255. Small cells take less time and, above fast effort, more triangles
+  /// Samples along the side of a cell, 8 to 255. Small cells need less time and, above fast effort, more triangles
   /// (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
   int cell = 0;
   /// Threads of an update that touches several cells, as Run::threads. Never changes the result.
@@ -48,10 +48,10 @@ struct LiveWindow {
 /// The mesh of a cell: a square of one sample more than LiveOptions::cell a side, of which the last row and column are
 /// also those of the next cells. Immutable.
 struct LiveCell {
-  /// Where a renderer keeps the cell; at most one cell of the field has it. Slots count from 0 to
+  /// The cell's place in a renderer's buffer; at most one cell of the field has it. Slots count from 0 to
   /// LiveField::slot_count() − 1 and stay the same while the field moves.
   std::uint32_t slot = 0;
-  std::uint64_t version = 0;  ///< of the change that made it
+  std::uint64_t version = 0;  ///< the change that made it
   SampleAt place = {};        ///< the cell's first sample, on the lattice of LiveOptions::place
   /// Three for each vertex: columns east and rows north of the first sample (so y <= 0), and the height. Whole numbers,
   /// or with kHigh eighths. Vertices on the cell's border are samples, and the neighbours have the same.
@@ -122,7 +122,7 @@ class LiveField {
 
   /// The current samples, row by row. Fails with kUsage during a change.
   Result<std::vector<float>> heights() const;
-  /// Where the first sample lies now, on the lattice of LiveOptions::place.
+  /// The place of the first sample now, on the lattice of LiveOptions::place.
   SampleAt place() const;
   /// The frame of the field where it lies now: sample (0, 0) is the first. Cell positions in it:
   /// apply_affine(cell.place − place() + (x, −y)).

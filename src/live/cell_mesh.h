@@ -19,8 +19,8 @@ namespace scarp::live {
 /// Samples of a cell and one more on each side, row by row; those outside the field are NaN.
 struct CellSamples {
   Area cell;                          ///< clipped to the field
-  std::span<const float> heights;     ///< of cell.grown(1)
-  std::span<const float> tolerances;  ///< of cell.grown(1), or empty
+  std::span<const float> heights;     ///< those in cell.grown(1)
+  std::span<const float> tolerances;  ///< those in cell.grown(1), or empty
 };
 
 /// `place`: the first sample of the whole cell, which the field may clip. Slot and version are not set. Fails as

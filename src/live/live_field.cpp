@@ -81,7 +81,7 @@ float height_or_void(float height, const std::optional<float>& nodata) {
 }  // namespace
 
 struct LiveField::Impl {
-  /// What readers see.
+  /// The state that readers see.
   struct Shown {
     Area area;
     std::uint64_t version = 0;
@@ -290,7 +290,7 @@ struct LiveField::Impl {
       if (tolerances) tolerances->read(part, before, left.tolerances.data());
       all_left.push_back(std::move(left));
     }
-    // What enters takes the place of what leaves.
+    // Samples that enter are stored where those that leave were.
     for (const Left& left : all_left) {
       heights.clear(left.area);
       if (tolerances) tolerances->clear(left.area);
@@ -320,7 +320,7 @@ struct LiveField::Impl {
   }
 
   const LiveOptions options;
-  const Frame frame;  // of the place where the field was made
+  const Frame frame;  // the field's when it was made
   const double sample_rounding;
   Area area;
   const CellLattice lattice;

@@ -11,7 +11,7 @@ if np is not None:
 
 
 def apply(cells, changes):
-    """What a renderer keeps, by slot."""
+    """Updates the cells that a renderer keeps, by slot."""
     for cell in changes.cells:
         cells.pop(cell.slot, None)
         if len(cell.triangles):

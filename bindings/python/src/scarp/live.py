@@ -21,8 +21,8 @@ _LARGEST = 2**31 - 1
 class Cell(NamedTuple):
     """The mesh of a cell, ready for a GPU. The arrays are the library's memory, read-only."""
 
-    slot: int  #: where a renderer keeps it: at most one cell has it, also while the field moves
-    version: int  #: of the change that made it
+    slot: int  #: its place in a renderer's buffer: at most one cell has it, also while the field moves
+    version: int  #: the change that made it
     row: int  #: its first sample, on the lattice of cells
     col: int
     max_error: float  #: measured
@@ -91,7 +91,7 @@ class Live:
             options.tolerance = bounds.ctypes.data
         self._has_tolerance = bounds is not None
         self._shape = (read.field.rows, read.field.cols)
-        self._lock = threading.Lock()  # of the handle, not of the field
+        self._lock = threading.Lock()  # protects the handle, not the field
         self._busy = 0
         out = C.c_void_p()
         _abi.check(_abi.lib.scarp_live_create(C.byref(read.field), C.byref(options), C.byref(out)))
