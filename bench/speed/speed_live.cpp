@@ -1,6 +1,6 @@
 // Times the updates of live fields, on one thread, by effort and cell size, against one simplify() of the whole field.
 //
-//   speed_live [RASTER COLS ROWS] [--error E] [--window N] [--updates N] [--cells N...]
+//   speed_live [RASTER COLS ROWS] [--error E] [--window N] [--updates N] [--effort E] [--cells N...]
 //
 // Without a raster: an elevation map of 500 × 500 cells of 5 cm, boxes on a floor with 5 mm of noise, and holes; errors
 // of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's own, with fresh noise of a
@@ -89,7 +89,8 @@ struct Bench {
 
 int main(int argc, char** argv) {
   const bench::Arguments arguments(
-      argc, argv, "speed_live [RASTER] [COLS] [ROWS] [--error E] [--window N] [--updates N] [--cells N...]");
+      argc, argv,
+      "speed_live [RASTER] [COLS] [ROWS] [--error E] [--window N] [--updates N] [--effort E] [--cells N...]");
   const bool has_raster = arguments.count() == 3;
   const bench::RawRaster raster = has_raster ? bench::read_raw(arguments) : make_map(3);
   const double error = arguments.number("--error", 0.02);
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   std::printf(
       "effort,field,window,cell,error,mean_ms,p99_ms,worst_ms,whole_ms,triangles,whole_triangles,triangle_ratio\n");
   for (const std::string effort : {"fast", "normal", "high"}) {
+    if (arguments.value("--effort", effort) != effort) continue;
     for (const int cell : cells) bench.run(effort, cell);
   }
 }

@@ -204,13 +204,15 @@ struct LiveField::Impl {
     for (const float height : new_heights) patch.heights.push_back(height_or_void(height, std::nullopt));
     patch.tolerances.assign(new_bounds.begin(), new_bounds.end());
     Area turned;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::int32_t col = patch.area.west + std::int32_t(k % std::size_t(window.cols));
-      const std::int32_t row = patch.area.north + std::int32_t(k / std::size_t(window.cols));
-      const bool is_void = std::isnan(patch.heights[k]), was_void = std::isnan(old_heights[k]);
-      if (is_void != was_void) turned.include(col, row);
-      const bool is_same = is_void ? was_void : patch.heights[k] == old_heights[k];
-      if (!is_same || (!new_bounds.empty() && patch.tolerances[k] != old_bounds[k])) patch.changed.include(col, row);
+    std::size_t k = 0;
+    for (std::int32_t row = patch.area.north; row <= patch.area.south; ++row) {
+      for (std::int32_t col = patch.area.west; col <= patch.area.east; ++col, ++k) {
+        const float now = patch.heights[k], then = old_heights[k];
+        const bool is_void = std::isnan(now), was_void = std::isnan(then);
+        if (is_void != was_void) turned.include(col, row);
+        const bool is_same = now == then || (is_void && was_void);
+        if (!is_same || (!new_bounds.empty() && patch.tolerances[k] != old_bounds[k])) patch.changed.include(col, row);
+      }
     }
     if (!turned.is_empty()) {
       const Area near = turned.grown(1).clipped(area);

@@ -1,7 +1,9 @@
 #include "measure/error_summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -112,18 +114,28 @@ double end_of(std::uint32_t bucket) { return static_cast<double>(bit_cast<float>
 
 }  // namespace
 
-/// Finds ascending ranks, from 1 to the number counted.
+/// Finds ascending ranks, from 1 to the number counted: by the counts of coarse bins, then within the rank's bin.
 void Histogram::find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const {
-  std::vector<std::uint32_t> buckets = few_;
-  const auto larger = std::partition(buckets.begin(), buckets.end(), [](std::uint32_t bucket) { return bucket == 0; });
-  const auto lowest = static_cast<std::uint64_t>(zeros_ + (larger - buckets.begin()));
-  auto from = larger;
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    if (ranks[i] <= lowest) continue;
-    const auto at = larger + static_cast<std::ptrdiff_t>(ranks[i] - lowest - 1);
-    std::nth_element(from, at, buckets.end());
-    found[i] = end_of(*at);
-    from = at;
+  constexpr std::uint32_t kBins = 1024;
+  const std::uint32_t largest = few_.empty() ? 0 : *std::max_element(few_.begin(), few_.end());
+  std::uint32_t shift = 0;
+  while (largest >> shift >= kBins) ++shift;
+  std::array<std::uint32_t, kBins> counts{};
+  for (const std::uint32_t bucket : few_) ++counts[bucket >> shift];
+  std::uint64_t passed = static_cast<std::uint64_t>(zeros_);
+  std::vector<std::uint32_t> in_bin;
+  std::size_t i = 0;
+  for (std::uint32_t bin = 0; bin < kBins && i < ranks.size(); passed += counts[bin++]) {
+    if (ranks[i] > passed + counts[bin]) continue;
+    in_bin.clear();
+    std::copy_if(few_.begin(), few_.end(), std::back_inserter(in_bin),
+                 [&](std::uint32_t bucket) { return bucket >> shift == bin; });
+    for (; i < ranks.size() && ranks[i] <= passed + counts[bin]; ++i) {
+      if (ranks[i] <= passed) continue;  // a zero
+      const auto at = in_bin.begin() + static_cast<std::ptrdiff_t>(ranks[i] - passed - 1);
+      std::nth_element(in_bin.begin(), at, in_bin.end());
+      if (*at > 0) found[i] = end_of(*at);
+    }
   }
 }
 
