@@ -440,6 +440,64 @@ static void try_volumes(void) {
   scarp_mesh_free(fine);
   scarp_mesh_free(coarse);
 }
+
+/* A field that changes, judged by scarp_measure() before and after it moved. */
+static void try_live(void) {
+  scarp_field field = make_field();
+  scarp_live_options options;
+  scarp_live* live = NULL;
+  scarp_changes* changes = NULL;
+  EXPECT(scarp_live_create(&field, NULL, &live) == SCARP_USAGE && live == NULL);
+  scarp_live_options_init(&options, sizeof options);
+  options.max_error = 2;
+  options.effort = 3;
+  EXPECT(scarp_live_create(&field, &options, &live) == SCARP_USAGE && live == NULL);
+  EXPECT_SAYS("is 0 (fast), 1 (normal) or 2 (high), not 3");
+  options.effort = 1;
+  options.cell = 16;
+  EXPECT(scarp_live_create(&field, &options, &live) == SCARP_OK);
+  EXPECT(scarp_live_changes(live, 0, &changes) == SCARP_OK);
+  const uint64_t version = scarp_changes_version(changes);
+  EXPECT(scarp_changes_count(changes) > 1 && scarp_changes_count(changes) <= scarp_live_slot_count(live));
+  scarp_changes_free(changes);
+
+  static float all[kCols * kRows];
+  const float window[6] = {40, 41, 42, 43, 44, NAN};
+  EXPECT(scarp_live_update(live, kCols - 2, 0, 3, 2, window, NULL) == SCARP_USAGE);
+  EXPECT_SAYS("is not within the live field");
+  EXPECT(scarp_live_update(live, 2, 2, 3, 2, window, NULL) == SCARP_OK);
+  EXPECT(scarp_live_changes(live, version, &changes) == SCARP_OK && scarp_changes_count(changes) == 1);
+  scarp_live_cell cell;
+  cell.struct_size = sizeof cell;
+  EXPECT(scarp_changes_cell(changes, 1, &cell) == SCARP_USAGE);
+  EXPECT(scarp_changes_cell(changes, 0, &cell) == SCARP_OK);
+  EXPECT(cell.version == version + 1 && cell.col == 0 && cell.row == 0 && cell.triangles > 0 && cell.max_error <= 2);
+  for (uint32_t k = 0; k < 3 * cell.triangles; ++k) EXPECT(cell.indices[k] < cell.vertices);
+  for (uint32_t v = 0; v < cell.vertices; ++v) EXPECT(cell.positions[3 * v] <= 16 && cell.positions[3 * v + 1] >= -16);
+  scarp_changes_free(changes);
+
+  for (int turn = 0; turn < 2; ++turn) {
+    scarp_mesh* mesh = NULL;
+    scarp_report report;
+    report.struct_size = sizeof report;
+    EXPECT(scarp_live_heights(live, all) == SCARP_OK && isnan(all[turn == 0 ? 3 * kCols + 4 : 6 * kCols + 2]));
+    field.samples = all;
+    if (turn == 1) field.frame = SCARP_FRAME_SOURCE;
+    scarp_live_geotransform(live, field.geotransform);
+    EXPECT(scarp_live_mesh(live, &mesh) == SCARP_OK);
+    EXPECT(scarp_mesh_triangle_count(mesh) == scarp_live_triangle_count(live));
+    EXPECT(scarp_measure(&field, mesh, NULL, &report) == SCARP_OK);
+    EXPECT(report.max_error <= 2 && report.uncovered == 0 && report.max_error == scarp_live_max_error(live));
+    scarp_mesh_free(mesh);
+    EXPECT(scarp_live_scroll(live, 2, -3) == SCARP_OK);
+  }
+  int32_t col = 0, row = 0;
+  scarp_live_place(live, &col, &row);
+  EXPECT(col == 4 && row == -6);
+  scarp_live_free(live);
+  scarp_live_free(NULL);
+  scarp_changes_free(NULL);
+}
 #endif
 
 static void try_refiner(void) {
@@ -593,6 +651,7 @@ int main(int argc, char** argv) {
 #ifdef IS_NEWEST
   try_newest();
   try_volumes();
+  try_live();
 #endif
   try_refiner();
   try_points();
