@@ -389,6 +389,8 @@ struct PointSet {
   /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are rings, too. All points
   /// lie inside, by the rule of even and odd. From cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
+  /// Boundaries in the file that do not end the surface, as read_lines() names them: "survey.xml:EG".
+  std::vector<std::string> outlines;
   std::string path;         ///< their source, for messages
   std::string format;       ///< "CSV", "GPKG", …
   std::string crs;          ///< CRS of x and y: "EPSG:32611", WKT, or empty

@@ -117,11 +117,14 @@ struct ReadLinesOptions {
   std::string z_field = {};
   bool ignore_z = false;  ///< all lines are soft. DEFAULT: false.
   ProgressCallback progress = {};
+  /// The unit of x and y where `crs` is empty, in metres: LandXML of another unit is refused. DEFAULT: 0, unknown.
+  double unit_in_metres = 0;
 };
 
 /// Reads the lines and polygons of one layer, by GDAL: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, DXF, CSV with WKT, …
 /// `path` is a file, a URL or a /vsi… name. A layer may follow a colon: "dem.gpkg:ridges". Without a layer name, the
-/// file must have exactly one layer for lines or polygons.
+/// file must have exactly one layer for lines or polygons. Of LandXML, the layers are surfaces, whose boundaries become
+/// polygons without heights: outer ones and islands, with voids as holes.
 ///
 /// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
 /// transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the requested CRS.

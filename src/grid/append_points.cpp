@@ -58,6 +58,7 @@ Result<void> append_points(const PointSet& more, PointSet& points) {
     for (std::uint32_t& point : line.points) point += first;
     points.lines.push_back(std::move(line));
   }
+  points.outlines.insert(points.outlines.end(), more.outlines.begin(), more.outlines.end());
   points.without_height += more.without_height;
   points.spikes += more.spikes;
   points.outside += more.outside;

@@ -222,9 +222,11 @@ TWO_CRS = "".join(f"printf 'x,y,z\\n0,0,1\\n9,0,2\\n0,9,3\\n' > {name}.csv; ogr2
                   "-oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y -oo Z_POSSIBLE_NAMES=z; " for name, code in (("a", 32633), ("b", 32632)))
 O("a drawing of two layers", "scarp simplify s.dxf o.obj -e 1", "the layers A, B: name those of the terrain", "scarp simplify s.dxf o.obj -e 1 --layer A,B", DRAWING)
 O("LandXML of two parts", "scarp simplify s.xml o.obj -e 1", "holds CgPoints, a: name those", "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a", LANDXML)
-O("LandXML with a boundary", "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a", "boundaries, which are not read: give them as polygons",
-  "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a --boundary site.geojson -q",
-  LANDXML + "\nprintf '{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[9,0],[0,9],[0,0]]]}' > site.geojson")
+O("LandXML with a boundary", "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a", "--boundary s.xml:a ends the mesh there",
+  "scarp simplify s.xml o.obj -e 1 --layer CgPoints,a --boundary s.xml:a -q", LANDXML)
+O("LandXML with several boundaries", "scarp simplify s.xml o.obj -e 1 --layer CgPoints --boundary t.xml", "name one, as in t.xml:a",
+  "scarp simplify s.xml o.obj -e 1 --layer CgPoints --boundary t.xml:a -q",
+  LANDXML + "\nsed 's|</Surfaces>|<Surface name=\"b\"><Boundary><PntList2D>0 0 9 0 0 9</PntList2D></Boundary></Surface></Surfaces>|' s.xml > t.xml")
 O("layers in two CRS", "scarp simplify two.gpkg o.obj -e 1 --layer a,b", "differ in their CRS: read one of them", "scarp simplify two.gpkg o.obj -e 1 --layer a", TWO_CRS)
 C("degrees in CSV", "scarp simplify degrees.csv o.glb -e 5")
 C("degrees in CSV with ;", "scarp simplify d.csv o.glb -e 5", "sed 's/,/;/g' degrees.csv > d.csv")

@@ -45,6 +45,35 @@ watershed = '<Surfaces><Surface name="EG"><SourceData><DataPoints><PntList3D>%s<
 open("basin.xml", "w").write(xml(metres, watershed % three([(x, y, height(x, y)) for x, y in grid])))
 open("torn.xml", "w").write(xml(metres, surface % "")[:2000])
 open("odd.xml", "w").write(xml(metres, surface % "").replace("</PntList3D></Breakline>", " 7</PntList3D></Breakline>"))
+
+# Boundaries: northing first. A void of two outer boundaries crosses one of them, an island lies in it; a fence is named by its points.
+ring = lambda west, south, east, north: [(west, south), (east, south), (east, north), (west, north)]
+two = lambda places: " ".join("%s %s" % (5000000 + y, 500000 + x) for x, y in places)
+boundary = lambda kind, places: '<Boundary bndType="%s"><PntList2D>%s</PntList2D></Boundary>' % (kind, two(places))
+deep = lambda kind, places: '<Boundary bndType="%s"><PntList3D>%s</PntList3D></Boundary>' % (kind, three([(x, y, 7) for x, y in places]))
+bounds = lambda name, *b: '<Surface name="%s"><SourceData><Boundaries>%s</Boundaries></SourceData></Surface>' % (name, "".join(b))
+outer, void, island = ring(10, 10, 60, 85), ring(30, 30, 70, 60), ring(40, 40, 50, 50)
+surfaces = lambda *parts: "<Surfaces>%s</Surfaces>" % "".join(parts)
+places = lambda name, *b: open(name, "w").write(xml(metres, surfaces(*b)))
+places("void.xml", bounds("site", boundary("island", island), boundary("void", void), deep("outer", outer + outer[:1])))
+places("sites.xml", bounds("A", boundary("outer", outer)), bounds("B", boundary("outer", island)))
+places("hollow.xml", bounds("A", boundary("void", void)))
+places("strange.xml", bounds("A", boundary("moat", outer)))
+places("empty.xml", bounds("A", '<Boundary bndType="outer"/>'))
+open("zone.xml", "w").write(xml(metres.replace("32633", "32632"), surfaces(bounds("A", boundary("outer", outer)))))
+open("yards.xml", "w").write(xml(feet, surfaces(bounds("A", boundary("outer", outer)))))
+named = "".join('<CgPoint pntRef="%s"/>' % name for name in "a234")
+fence = '<CgPoints><CgPoint name="a">%s</CgPoint></CgPoints>' % two(outer[:1]) + surfaces(
+    '<Surface name="site"><Boundary bndType="outer">%s</Boundary><Pnts>%s</Pnts></Surface>'
+    % (named, "".join('<P id="%d">%s 0</P>' % (k + 1, two([p])) for k, p in enumerate(outer))))
+open("fence.xml", "w").write(xml(metres, fence))
+open("lost.xml", "w").write(xml(metres, fence.replace('pntRef="4"', 'pntRef="5"')))
+bitten = [(10, 10), (60, 10), (60, 30), (30, 30), (30, 60), (60, 60), (60, 85), (10, 85)]
+polygon = lambda places: '{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[%s]}}' % (
+    [[500000 + x, 5000000 + y] for x, y in places + places[:1]])
+for name, parts in ("bitten", [bitten, island]), ("outer", [outer]):
+    open(name + ".geojson", "w").write('{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32633"}},"features":[%s]}'
+        % ",".join(map(polygon, parts)))
 PY
 
 # A drawing: the layers that are the terrain have to be named. Texts are no points, and a symbol is one.
@@ -95,7 +124,13 @@ succeeds "$scarp" simplify both.xml both.obj -e 0.1 --layer CgPoints,EG
 grep -q 'points  *812' "$logs/out" && grep -q 'duplicates  *400,' "$logs/out" || fail "two parts: $(cat "$logs/out")"
 refuses 2 "both.xml: holds no 'FG', only CgPoints, EG" "$scarp" simplify both.xml x.obj -e 0.1 --layer FG
 succeeds "$scarp" simplify both.xml tin.xml -e 0.1 --layer EG
-grep -q "the surface 'EG' has boundaries, which are not read: give them as polygons with --boundary" "$logs/err" || fail "a boundary"
+grep -q 'both.xml:EG is a boundary that is not applied: --boundary both.xml:EG ends the mesh there' "$logs/err" || fail "a boundary"
+succeeds "$scarp" info both.xml --layer EG
+cat "$logs/out" "$logs/err" | grep -q -e '--boundary both.xml:EG' || fail "a boundary in info"
+succeeds "$scarp" simplify both.xml bounded.ply -e 0.1 --layer EG --boundary both.xml --report bounded.json
+[ ! -s "$logs/err" ] || fail "a boundary that is applied warns: $(cat "$logs/err")"
+[ "$(json bounded.json input boundary_cut points_outside)" -gt 150 ] || fail "a boundary of the surface itself"
+succeeds "$scarp" measure both.xml bounded.ply --layer EG --fail-above 0.1 -q
 succeeds "$scarp" measure both.xml tin.xml --layer EG --fail-above 0.1 -q
 refuses 2 "tin.xml: a mesh (LandXML): give the raster or the points that it was made from" "$scarp" simplify tin.xml x.obj -e 0.1
 succeeds "$scarp" simplify tin.xml again.obj -e 0.1 --points
@@ -109,4 +144,33 @@ grep -q '"unit": "feet"' "$logs/out" || fail "the unit of elevations"
 succeeds "$scarp" info basin.xml
 grep -q 'points  *400' "$logs/out" || fail "a watershed is no terrain"
 refuses 1 "--columns is for text and vector layers, and survey.xml is LandXML" "$scarp" simplify survey.xml x.obj -e 0.1 --columns xyz
+
+# Boundaries of LandXML are polygons: the meshes are those of the same polygons in GeoJSON.
+for option in --boundary --cutline; do
+  for pair in fence.xml=outer sites.xml:A=outer; do
+    succeeds "$scarp" simplify survey.xml one.obj -e 0.1 "$option" "${pair%=*}" --overwrite -q
+    succeeds "$scarp" simplify survey.xml other.obj -e 0.1 "$option" "${pair#*=}.geojson" --overwrite -q
+    cmp <(grep '^[vf]' one.obj) <(grep '^[vf]' other.obj) || fail "$pair: two meshes"
+  done
+done
+# Voids are cut out, also where they cross an outer boundary, and islands are whole.
+succeeds "$scarp" simplify survey.xml void.stl -e 0.1 --boundary void.xml --report void.json -q
+succeeds "$scarp" simplify survey.xml bitten.stl -e 0.1 --boundary bitten.geojson --report bitten.json -q
+for key in boundary_cut points; do [ "$(json void.json input $key)" = "$(json bitten.json input $key)" ] || fail "voids: $key"; done
+holds "$(json void.json triangles) == $(json bitten.json triangles)" || fail "triangles around a void"
+succeeds "$scarp" measure survey.xml void.stl --boundary void.xml --fail-above 0.1 -q
+succeeds "$scarp" measure survey.xml void.stl --boundary bitten.geojson --fail-above 0.1 -q
+refuses 2 "sites.xml: holds boundaries of several surfaces; name one, as in sites.xml:A: A, B" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary sites.xml
+refuses 2 "sites.xml has no surface 'C' with boundaries (found: A, B)" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary sites.xml:C
+refuses 2 "survey.xml: LandXML without boundaries" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary survey.xml
+refuses 2 "hollow.xml: the surface A has no outer boundary, only voids" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary hollow.xml
+refuses 2 "strange.xml: line 3: a boundary of the surface A is of the kind 'moat', which is not outer, void or island" \
+  "$scarp" simplify survey.xml x.obj -e 0.1 --boundary strange.xml
+refuses 2 "empty.xml: line 3: a boundary of the surface A has no list of points" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary empty.xml
+refuses 2 "refers to the point '5', which has no place" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary lost.xml
+refuses 2 "yards.xml: names no CRS, its unit is US survey foot, and that of the input is 1 m" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary yards.xml
+succeeds "$scarp" simplify feet.xml yards.obj -e 0.1 --boundary yards.xml -q
+refuses 2 "no point lies within --boundary zone.xml" "$scarp" simplify survey.xml x.obj -e 0.1 --boundary zone.xml
+succeeds "$scarp" simplify site.dxf lines.obj -e 0.1 --layer SURVEY --breaklines both.xml
+grep -q 'both.xml: of its surfaces only the boundaries are read as lines, not the breaklines' "$logs/err" || fail "breaklines of LandXML"
 echo "drawings, LandXML and several layers give their points and lines"

@@ -76,6 +76,40 @@ TEST_F(LineFiles, a_line_keeps_its_vertices_but_not_twice) {
   EXPECT_TRUE(set.warnings.empty());
 }
 
+TEST_F(LineFiles, boundaries_of_landxml_are_polygons_with_voids_as_holes) {
+  const auto drawing = [&](const std::string& boundaries, const std::string& unit = "meter") {
+    return write("a.xml", "<LandXML><Units><Metric linearUnit=\"" + unit + "\"/></Units><Surface name=\"s\">" +
+                              boundaries + "</Surface></LandXML>");
+  };
+  const std::string outer = "<Boundary><PntList2D>0 10 0 19 9 19 9 10</PntList2D></Boundary>",
+                    hole = "<Boundary bndType=\"void\"><PntList3D>1 11 5 1 12 5 2 12 5 1 11 5</PntList3D></Boundary>",
+                    island = "<Boundary bndType=\"island\"><PntList2D>20 0 20 1 21 1</PntList2D></Boundary>";
+  const LineSet plain = read(drawing(outer + island));
+  ASSERT_EQ(plain.lines.size(), 2u);
+  EXPECT_EQ(plain.polygons, 2u);
+  EXPECT_EQ(plain.format, "LandXML");
+  EXPECT_EQ(plain.layer, "s");
+  ASSERT_EQ(plain.lines[0].points.size(), 5u);
+  EXPECT_EQ(plain.lines[0].points[1][0], 19);
+  EXPECT_EQ(plain.lines[0].points[1][1], 0);
+  for (const Line& line : plain.lines) {
+    EXPECT_EQ(line.role, LineRole::kOuter);
+    for (const auto& point : line.points) EXPECT_TRUE(std::isnan(point[2]));
+  }
+  const LineSet holed = read(drawing(hole + outer));
+  ASSERT_EQ(holed.lines.size(), 2u);
+  EXPECT_EQ(holed.polygons, 1u);
+  EXPECT_EQ(holed.lines[0].role, LineRole::kOuter);
+  EXPECT_EQ(holed.lines[1].role, LineRole::kHole);
+  EXPECT_EQ(holed.lines[1].points.size(), 4u);
+  EXPECT_EQ(read(drawing(outer), {.unit_in_metres = 1}).lines.size(), 1u);
+  EXPECT_TRUE(contains(refuse(drawing(outer, "foot"), {.unit_in_metres = 1}), "its unit is foot"));
+  EXPECT_TRUE(contains(refuse(drawing("")), "LandXML without boundaries"));
+  EXPECT_TRUE(contains(refuse(drawing(hole)), "has no outer boundary"));
+  EXPECT_TRUE(contains(refuse(drawing(outer) + ":t"), "has no surface 't'"));
+  EXPECT_TRUE(contains(refuse(drawing("<Boundary><PntList2D>0 1 2</PntList2D></Boundary>")), "2 does not divide"));
+}
+
 TEST_F(LineFiles, the_third_coordinate_is_the_height_unless_told_otherwise) {
   const std::string path = write("a.geojson", geojson({kDeep}, "EPSG::32611", R"({"elev":7,"name":"x","empty":null})"));
   EXPECT_EQ(read(path).lines[0].points[1][2], 11.5);

@@ -12,9 +12,11 @@
 #include "base/caught.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/earth_frame.h"
+#include "io/gdal/landxml_lines.h"
 #include "io/gdal/vector.h"
 #include "io/line_heights.h"
 #include "io/points/column_names.h"
+#include "io/points/landxml.h"
 #include "scarp/lines.h"
 
 namespace scarp::gdal {
@@ -33,20 +35,24 @@ bool exists(const std::string& path) {
   return VSIStatL(vsi_path(path).c_str(), &status) == 0;
 }
 
+/// The name of a file, and of the layer in it if that is named.
+struct NamedLayer {
+  std::string file, layer;
+};
+
 /// "file:layer" is distinguished from a name that contains a colon ("C:\lines.shp", "PG:dbname=…", a URL) by trying to
-/// open it.
-Result<OpenedLayer> open(Session& session, const std::string& path) {
-  constexpr const char* kWhat = "lines";
-  constexpr const char* kExpected = "no vector data that GDAL can read";
+/// find it.
+NamedLayer split_layer(const std::string& path) {
   const std::size_t colon = path.rfind(':');
   const bool may_name_layer = colon != std::string::npos && colon > 0 && colon + 1 < path.size();
-  const std::string file = may_name_layer ? path.substr(0, colon) : std::string();
-  if (may_name_layer && !exists(path) && exists(file)) {
-    SCARP_TRY(auto&& dataset, open_vector(session, file, kWhat, kExpected));
-    return OpenedLayer{std::move(dataset), file, path.substr(colon + 1)};
-  }
-  SCARP_TRY(auto&& dataset, open_vector(session, path, kWhat, kExpected));
-  return OpenedLayer{std::move(dataset), path, {}};
+  std::string file = may_name_layer ? path.substr(0, colon) : std::string();
+  if (may_name_layer && !exists(path) && exists(file)) return {std::move(file), path.substr(colon + 1)};
+  return {path, {}};
+}
+
+Result<OpenedLayer> open(Session& session, const NamedLayer& named) {
+  SCARP_TRY(auto&& dataset, open_vector(session, named.file, "lines", "no vector data that GDAL can read"));
+  return OpenedLayer{std::move(dataset), named.file, named.layer};
 }
 
 bool may_be_lines(OGRLayerH layer) {
@@ -277,7 +283,13 @@ void convert_heights(OGRLayerH layer, std::optional<int> height_field, double un
 
 Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) {
   Session session(is_remote(path));
-  SCARP_TRY(const auto& opened, open(session, path));
+  const NamedLayer named = split_layer(path);
+  if (is_landxml(named.file)) {
+    SCARP_TRY(auto&& set, read_landxml_lines(session, named.file, named.layer, options));
+    SCARP_RETURN_IF_ERROR(place(set.crs.empty() ? nullptr : find_crs(set.crs), options.crs, set));
+    return std::move(set);
+  }
+  SCARP_TRY(const auto& opened, open(session, named));
   SCARP_TRY(const auto& found, find_layer(opened));
   OGRLayerH layer = found.open();
   std::optional<int> height_field;

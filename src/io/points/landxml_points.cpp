@@ -14,11 +14,11 @@
 #include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
+#include "io/points/landxml.h"
 #include "io/points/layer_list.h"
 #include "io/points/line_points.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
-#include "io/raster/crs_description.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/points.h"
@@ -31,8 +31,9 @@ constexpr const char* kSurveyPoints = "CgPoints";
 /// A surface, or the survey points.
 struct Part {
   std::string name;
-  PointSet source, vertices;  ///< source data of a surface, and its TIN
-  std::uint64_t boundaries = 0, faces = 0;
+  PointSet source, vertices;                  ///< source data of a surface, and its TIN
+  bool has_outer = false, has_voids = false;  ///< boundaries
+  std::uint64_t faces = 0;
   std::uint64_t flat = 0, short_lines = 0;  ///< points and lines without elevation; lines of a single point
 
   bool has_source() const { return source.size() > 0; }
@@ -42,7 +43,7 @@ struct Part {
 /// The content of a file.
 struct Content {
   std::vector<Part> parts;  ///< the survey points first
-  std::string linear_unit, elevation_unit, crs;
+  LandXmlHead head;
 };
 
 class Reader {
@@ -71,13 +72,8 @@ class Reader {
 
   void begin_element() {
     const std::string_view name = xml_.name();
-    if (name == "Metric" || name == "Imperial") {
-      content_.linear_unit = xml_.attribute("linearUnit");
-      content_.elevation_unit = xml_.attribute("elevationUnit");
-    } else if (name == "CoordinateSystem") {
-      const std::string code = xml_.attribute("epsgCode");
-      content_.crs = code.empty() ? xml_.attribute("ogcWktCode") : "EPSG:" + code;
-    } else if (name == "Surface") {
+    content_.head.read(xml_);
+    if (name == "Surface") {
       content_.parts.push_back({xml_.attribute("name"), {}, {}});
       in_surface_ = true;
     } else if (name == "SourceData") {
@@ -85,13 +81,18 @@ class Reader {
     } else if (name == "Breakline" || name == "Contour" || name == "Boundary") {
       line_ = name;
       elevation_ = xml_.attribute("elev");
-      if (name == "Boundary" && in_surface_) ++part().boundaries;
+      if (name == "Boundary" && in_surface_) note_boundary();
     } else if (name == "F" && in_surface_) {
       ++part().faces;
     } else if (is_list(name)) {
       reading_ = name;
       text_.clear();
     }
+  }
+
+  void note_boundary() {
+    const bool is_outer = find_boundary_kind(xml_.attribute("bndType")) == BoundaryKind::kOuter;
+    (is_outer ? part().has_outer : part().has_voids) = true;
   }
 
   bool is_list(std::string_view name) const {
@@ -118,18 +119,6 @@ class Reader {
     return why;
   }
 
-  /// The numbers of the text.
-  std::string read_numbers() {
-    numbers_.clear();
-    TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size()});
-    for (std::string_view word = cursor.word_anywhere(); !word.empty(); word = cursor.word_anywhere()) {
-      numbers_.emplace_back();
-      if (!parse_number(word, numbers_.back()) || !std::isfinite(numbers_.back()))
-        return fmt::format("'{}' is no finite number", std::string(word.substr(0, 40)));
-    }
-    return {};
-  }
-
   /// False for a point that --nodata omits.
   bool add(PointSet& points, double northing, double easting, double height) {
     if (nodata_ && height == *nodata_) {
@@ -144,7 +133,7 @@ class Reader {
 
   /// One point. `wanted`: the count of its numbers; 0: a survey point, which may refer to another or lack a height.
   std::string read_points(PointSet& points, std::size_t wanted) {
-    if (std::string why = read_numbers(); !why.empty()) return why;
+    if (std::string why = read_numbers(text_, numbers_); !why.empty()) return why;
     if (wanted == 0 && numbers_.empty()) return {};
     if (wanted == 0 && numbers_.size() == 2) {
       ++content_.parts.front().flat;
@@ -157,7 +146,7 @@ class Reader {
 
   /// A list of points; in a breakline or a contour their line.
   std::string read_list(bool has_heights) {
-    if (std::string why = read_numbers(); !why.empty()) return why;
+    if (std::string why = read_numbers(text_, numbers_); !why.empty()) return why;
     const std::size_t size = has_heights ? 3 : 2;
     if (numbers_.size() % size != 0)
       return fmt::format("a list of points has {} numbers, which {} does not divide", numbers_.size(), size);
@@ -218,40 +207,30 @@ Result<std::vector<Part*>> choose_parts(Content& content, const std::string& pat
   return chosen;
 }
 
-HeightUnit unit_of(const std::string& linear_unit) {
-  const std::string name = linear_unit == "USSurveyFoot" ? "US survey foot" : linear_unit;
-  return {name, find_metres(name).value_or(0)};
-}
-
 /// Warns of everything that is not among the points.
 void warn(const Part& part, PointSet& points) {
   const auto add = [&](const std::string& text) { points.warnings.push_back(points.path + ": " + text); };
   if (part.flat > 0) add(fmt::format("points and lines that have no elevation and were left out: {}", part.flat));
   if (part.short_lines > 0) add(fmt::format("lines of a single point, which count as points: {}", part.short_lines));
-  if (part.boundaries > 0)
-    add(fmt::format("the surface '{}' has boundaries, which are not read: give them as polygons with --boundary",
-                    part.name));
+  if (part.has_outer)
+    points.outlines.push_back(points.path + (part.name.empty() ? "" : ":" + part.name));
+  else if (part.has_voids)
+    add(fmt::format("the surface '{}' has voids without an outer boundary, which are not read", part.name));
   if (part.faces > 0 && !part.has_source())
     add(fmt::format("of the surface '{}' the vertices are read, not its triangles", part.name));
 }
 
 /// Places x and y, and settles the unit of the heights.
 Result<void> place(const Content& content, const ReadPointsOptions& options, PointSet& points) {
-  const HeightUnit unit = unit_of(content.linear_unit),
-                   of_heights = content.elevation_unit.empty() ? unit : unit_of(content.elevation_unit);
-  const auto crs = describe_crs(content.crs);
-  if (crs && !crs->is_geographic && unit.metres > 0 && std::abs(unit.metres / crs->unit_in_metres - 1) > 1e-5)
-    return fail(ErrorKind::kInput, fmt::format("{}: its unit is {}, and that of its CRS, {}, is {:.9g} m: correct "
-                                               "linearUnit or epsgCode in the file",
-                                               points.path, unit.name, crs->name, crs->unit_in_metres));
-  if (!content.crs.empty() && (!can_describe_crs() || describe_crs(content.crs))) {
-    points.crs = content.crs;
+  const LandXmlHead& head = content.head;
+  const HeightUnit unit = head.unit(), of_heights = head.height_unit();
+  SCARP_RETURN_IF_ERROR(head.check(points.path));
+  if (head.has_crs()) {
+    points.crs = head.crs;
     SCARP_RETURN_IF_ERROR(place_lent_points(options, points));
     return settle_point_heights(options, of_heights, points);
   }
-  if (!content.crs.empty())
-    points.warnings.push_back(fmt::format("{}: its CRS, {}, is unknown here: x and y count as having none", points.path,
-                                          content.crs.substr(0, 60)));
+  if (!head.crs.empty()) points.warnings.push_back(warn_of_unknown_crs(head, points.path));
   points.unit_in_metres = points.heights.crs_unit_in_metres = unit.metres;
   points.heights.crs_unit = unit.name;
   SCARP_RETURN_IF_ERROR(place_without_crs(options, points));
@@ -271,7 +250,7 @@ Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const 
   Reader reader(bytes, options.nodata);
   if (const std::string why = reader.read(); !why.empty()) return fail(ErrorKind::kInput, path + ": " + why);
   Content content = reader.take();
-  if (content.crs.empty()) content.crs = crs;
+  if (content.head.crs.empty()) content.head.crs = crs;
   SCARP_TRY(const auto& parts, choose_parts(content, path, options.layer));
   PointSet points = parts.front()->points();
   points.path = path;

@@ -32,6 +32,8 @@ Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const 
 
 /// The file that declares the CRS of such files: WKT, or a code such as EPSG:32633. survey.csv: survey.prj.
 std::string projection_path(const std::string& path);
+/// The CRS that this file declares; empty without such a file.
+Result<std::string> read_declared_crs(const std::string& path);
 /// The command that makes it.
 std::string declare_crs_command(const std::string& path, const std::string& crs);
 

@@ -20,6 +20,7 @@
 #include "io/lent.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
+#include "io/points/landxml.h"
 #include "io/points/point_heights.h"
 #include "io/points/point_source.h"
 #include "io/raster/crs_description.h"
@@ -86,11 +87,15 @@ bool begins_as_grid(const std::string& path) {
 
 namespace {
 
+bool begins_landxml(std::span<const std::uint8_t> head) {
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  return (text.starts_with('<') || text.starts_with("\xEF\xBB\xBF<")) && text.find("LandXML") != text.npos;
+}
+
 /// LandXML or DXF, which hold points, lines or meshes.
 std::optional<MeshFormat> find_drawing(const std::string& path) {
   const std::vector<std::uint8_t> head = read_head(path);
-  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
-  if (text.starts_with('<') && text.find("LandXML") != text.npos) return MeshFormat::kLandXml;
+  if (begins_landxml(head)) return MeshFormat::kLandXml;
   const auto format = recognise_mesh(head, path);
   return format == MeshFormat::kLandXml || format == MeshFormat::kDxf ? format : std::nullopt;
 }
@@ -104,6 +109,8 @@ bool has_triangles(const std::string& path) {
 }
 
 }  // namespace
+
+bool is_landxml(const std::string& path) { return begins_landxml(read_head(path)); }
 
 std::string projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
 
@@ -147,7 +154,8 @@ bool is_las(const std::string& path) {
   return text.starts_with("LASF") || ((extension == ".las" || extension == ".laz") && fs::exists(path));
 }
 
-/// The CRS of survey.csv that survey.prj declares; empty without such a file.
+}  // namespace
+
 Result<std::string> read_declared_crs(const std::string& path) {
   std::error_code ignored;
   std::string file = projection_path(path);
@@ -162,6 +170,8 @@ Result<std::string> read_declared_crs(const std::string& path) {
                 file + ": declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633");
   return text;
 }
+
+namespace {
 
 Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
   if (is_las(path)) return read_las_points(path, options);

@@ -25,6 +25,7 @@ using enum OptionId;
 /// Lines in the coordinates of the points.
 Result<std::vector<Line>> read(const std::vector<std::string>& files, ReadLinesOptions options, PointSet& points) {
   options.crs = points.is_local ? points.source_crs : points.crs;
+  options.unit_in_metres = points.heights.crs_unit_in_metres;
   SCARP_TRY(auto&& set, read_lines(files, options, points.heights));
   const auto& [west, across, unused, south, unused_too, up] = points.to_source;
   for (Line& line : set.lines) {

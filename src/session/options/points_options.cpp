@@ -117,6 +117,11 @@ Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions&
     SCARP_RETURN_IF_ERROR(append_points(more, points));
   }
   if (files.size() > 1) points.path += fmt::format(" and {} more", files.size() - 1);
+  for (const std::string& outline : points.outlines) {
+    if (given.has(kBoundary)) break;
+    points.warnings.push_back(fmt::format("{} is a boundary that is not applied: {} {} ends the mesh there", outline,
+                                          kBoundary, shell_word(outline)));
+  }
   return points;
 }
 

@@ -22,7 +22,8 @@ Result<void> check_kind_of_input(const GivenOptions& given);
 /// `as`. Fails with kUsage for what cannot be parsed.
 Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as);
 
-/// The points of all inputs as one set. Fails as read_points() and append_points() do.
+/// The points of all inputs as one set, with a warning of boundaries in them unless --boundary is given. Fails as
+/// read_points() and append_points() do.
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options);
 
 /// --duplicates. Fails with kUsage.

@@ -1,0 +1,62 @@
+// Shared by the readers for LandXML.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/mesh/xml_reader.h"
+#include "io/raster/height_unit.h"
+#include "scarp/lines.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// The unit and the CRS of a file.
+struct LandXmlHead {
+  std::string linear_unit, elevation_unit, crs;
+
+  /// Reads the element if it belongs to the head.
+  void read(const XmlReader& xml);
+  /// The unit of x and y.
+  HeightUnit unit() const;
+  HeightUnit height_unit() const;
+  /// False for a CRS that is unknown here.
+  bool has_crs() const;
+  /// Fails if the CRS has another unit.
+  Result<void> check(const std::string& path) const;
+};
+
+/// A warning that the CRS is unknown here.
+std::string warn_of_unknown_crs(const LandXmlHead& head, const std::string& path);
+
+/// Replaces `numbers` by those of the text. Returns a complaint, or an empty string.
+std::string read_numbers(const std::string& text, std::vector<double>& numbers);
+
+enum class BoundaryKind { kOuter, kVoid, kIsland };
+
+/// The kind by its name in a file: outer; void, as other programs call it, too; island. Nothing for another.
+std::optional<BoundaryKind> find_boundary_kind(const std::string& name);
+
+struct LandXmlBoundary {
+  std::string surface;
+  BoundaryKind kind = BoundaryKind::kOuter;
+  Line ring;  ///< without heights
+};
+
+struct LandXmlBoundaries {
+  LandXmlHead head;
+  std::vector<LandXmlBoundary> rings;
+  std::uint64_t without_extent = 0;  ///< number of omitted rings
+  bool has_breaklines = false;
+};
+
+/// The boundaries of all surfaces, in the order of the file. kInput with the line for a file that cannot be read, and
+/// for a boundary of another kind or without points.
+Result<LandXmlBoundaries> read_landxml_boundaries(std::span<const std::uint8_t> bytes, const std::string& path);
+
+/// True for a file, by its first bytes.
+bool is_landxml(const std::string& path);
+
+}  // namespace scarp
