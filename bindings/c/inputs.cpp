@@ -8,6 +8,7 @@
 
 #include "door.h"
 #include "mesh.h"
+#include "settings.h"
 
 namespace scarp::door {
 namespace {
@@ -58,6 +59,15 @@ std::string find_fault(const scarp_points& points) {
   return "";
 }
 
+/// The same for the bounds of points.
+std::string find_fault(const float* tolerance, std::uint64_t count) {
+  for (std::uint64_t k = 0; k < count; ++k) {
+    if (!(tolerance[k] >= 0))
+      return fmt::format("tolerance[{}] is {}: it must be at least 0, and infinity is no bound", k, tolerance[k]);
+  }
+  return "";
+}
+
 /// Other values on the grid of the field.
 LentRaster beside(const LentRaster& raster, const float* values) {
   LentRaster other = raster;
@@ -89,8 +99,8 @@ LentInputs::LentInputs(const scarp_points* given, const scarp_options& asked) {
   const scarp_points points = known(given, scarp_points_init);
   name_ = points.name != nullptr && *points.name != '\0' ? points.name : "points";
   unfit_ = given == nullptr ? "the points are null" : find_fault(points);
-  if (asked.tolerance != nullptr)
-    unfit_ = "tolerance is an array on the grid of a field: for points it is the file of a raster, set by name";
+  const bool has_bounds = asked.tolerance != nullptr && !has_setting(asked, "--tolerance");
+  if (unfit_.empty() && has_bounds) unfit_ = find_fault(asked.tolerance, points.count);
   points_.path = name_;
   points_.format = "memory";
   if (points.crs != nullptr) points_.crs = points.crs;
@@ -100,6 +110,7 @@ LentInputs::LentInputs(const scarp_points* given, const scarp_options& asked) {
     points_.y.push_back(points.y[k * points.stride]);
     points_.z.push_back(points.z[k * points.stride]);
   }
+  if (unfit_.empty() && has_bounds) points_.tolerances.assign(asked.tolerance, asked.tolerance + points.count);
   lent_.emplace(name_, points_);
 }
 

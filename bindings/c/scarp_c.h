@@ -111,7 +111,7 @@ typedef struct scarp_options {
   uint64_t max_triangles; /* 0: none */
   uint64_t max_points;    /* vertices; 0: none */
   const float* mask;      /* NULL, or a weight for each sample: weight * |error| is bounded; 0 and NaN: no bound */
-  const float* tolerance; /* NULL, or a bound for each sample; NaN: none */
+  const float* tolerance; /* NULL, or a bound for each sample, NaN: none; or for each point, infinity: none */
   scarp_progress_fn progress;
   void* user;
   scarp_settings* named; /* options set by scarp_options_set() */

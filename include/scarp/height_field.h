@@ -389,6 +389,9 @@ struct PointSet {
   /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are rings, too. All points
   /// lie inside, by the rule of even and odd. From cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
+  /// Bounds of the first points, for PointOptions::tolerances; the others have none. Functions that omit or sort points
+  /// keep them. EMPTY: none.
+  std::vector<float> tolerances;
   /// Boundaries in the file that do not end the surface, as read_lines() names them: "survey.xml:EG".
   std::vector<std::string> outlines;
   std::string path;         ///< their source, for messages

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "scarp/points.h"
@@ -51,6 +52,10 @@ Result<void> append_points(const PointSet& more, PointSet& points) {
   if (!more.boundary.empty() || !points.boundary.empty())
     return fail(ErrorKind::kUsage, "points with a boundary cannot be joined: cut them to it afterwards");
   const auto first = static_cast<std::uint32_t>(points.size());
+  if (!more.tolerances.empty()) {
+    points.tolerances.resize(first, std::numeric_limits<float>::infinity());
+    points.tolerances.insert(points.tolerances.end(), more.tolerances.begin(), more.tolerances.end());
+  }
   append(more.x, points.x);
   append(more.y, points.y);
   append(more.z, points.z);

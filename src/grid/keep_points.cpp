@@ -8,14 +8,17 @@ namespace scarp {
 std::vector<std::uint32_t> keep_points(PointSet& points, FunctionRef<bool(std::size_t)> stays) {
   std::vector<std::uint32_t> names(points.size(), 0);
   std::uint32_t kept = 0;
+  std::size_t bounded = 0;  // points with a tolerance that stay
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!stays(i)) continue;
     points.x[kept] = points.x[i];
     points.y[kept] = points.y[i];
     points.z[kept] = points.z[i];
+    if (i < points.tolerances.size()) points.tolerances[bounded++] = points.tolerances[i];
     names[i] = kept++;
   }
   for (auto* values : {&points.x, &points.y, &points.z}) values->resize(kept);
+  points.tolerances.resize(bounded);
   for (PointLine& line : points.lines) {
     for (std::uint32_t& point : line.points) point = names[point];
   }

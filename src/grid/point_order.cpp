@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/curve.h"
@@ -35,8 +36,9 @@ struct Placed {
   std::uint32_t point;
 };
 
-void permute(const std::vector<Placed>& order, std::vector<double>& values) {
-  std::vector<double> sorted;
+template <class T>
+void permute(const std::vector<Placed>& order, std::vector<T>& values) {
+  std::vector<T> sorted;
   sorted.reserve(values.size());
   for (const Placed& k : order) sorted.push_back(values[k.point]);
   values.swap(sorted);
@@ -52,6 +54,10 @@ void sort_points(PointSet& points) {
   for (std::uint32_t i = 0; i < points.size(); ++i) order.push_back({curve_place(x(points.x[i]), y(points.y[i])), i});
   radix_sort(order, [](const Placed& k) { return k.key; });
   for (std::vector<double>* values : {&points.x, &points.y, &points.z}) permute(order, *values);
+  if (!points.tolerances.empty()) {
+    points.tolerances.resize(points.size(), std::numeric_limits<float>::infinity());
+    permute(order, points.tolerances);
+  }
   if (points.lines.empty() && points.boundary.empty()) return;
   std::vector<std::uint32_t> place(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i].point] = i;

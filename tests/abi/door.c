@@ -557,6 +557,37 @@ static void try_points(void) {
   report.struct_size = sizeof report;
   EXPECT(scarp_measure_points(&points, mesh, NULL, &report) == SCARP_OK);
   EXPECT(report.max_error <= 6 && report.samples == 500);
+#ifdef IS_NEWEST
+  static float bounds[500];
+  for (int k = 0; k < 500; ++k) bounds[k] = k % 3 == 0 ? INFINITY : k % 5 == 0 ? 0 : 2;
+  options.tolerance = bounds;
+  scarp_mesh* finer = NULL;
+  EXPECT(scarp_measure_points(&points, mesh, &options, &report) == SCARP_USAGE); /* max_error is no option of it */
+  scarp_options judge = make_options(NAN);
+  judge.tolerance = bounds;
+  EXPECT(scarp_measure_points(&points, mesh, &judge, &report) == SCARP_PROMISE && report.over > 0);
+  EXPECT(scarp_simplify_points(&points, &options, &finer) == SCARP_OK);
+  EXPECT(scarp_mesh_triangle_count(finer) > scarp_mesh_triangle_count(mesh));
+  EXPECT(scarp_measure_points(&points, finer, &judge, &report) == SCARP_OK && report.over == 0);
+  for (int k = 0; k < 500; ++k) { /* a point of bound 0 is a vertex */
+    const double* origin = scarp_mesh_origin(finer);
+    uint64_t v = 0;
+    const uint64_t count = scarp_mesh_vertex_count(finer);
+    const float* at = scarp_mesh_positions(finer);
+    while (v < count &&
+           (fabs(origin[0] + at[3 * v] - xyz[3 * k]) > 1e-4 || fabs(origin[1] + at[3 * v + 1] - xyz[3 * k + 1]) > 1e-4))
+      ++v;
+    EXPECT(bounds[k] > 0 || v < count);
+  }
+  scarp_mesh_free(finer);
+  bounds[7] = -1;
+  EXPECT(scarp_simplify_points(&points, &options, &finer) == SCARP_USAGE);
+  EXPECT_SAYS("tolerance[7] is -1: it must be at least 0");
+  bounds[7] = NAN;
+  EXPECT(scarp_simplify_points(&points, &options, &finer) == SCARP_USAGE);
+  EXPECT_SAYS("tolerance[7] is nan");
+  options.tolerance = NULL;
+#endif
   scarp_mesh_free(mesh);
 #ifdef IS_NEWEST
   points.frame = SCARP_FRAME_DEGREES;

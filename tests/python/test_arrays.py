@@ -284,7 +284,6 @@ class Arrays(unittest.TestCase):
     def test_an_option_may_be_an_array(self):
         points = np.random.default_rng(1).random((50, 3))
         for words, call in (("mask is for rasters", lambda: scarp.simplify_points(points, 1, mask=np.ones(50))),
-                            ("tolerance of points is the file", lambda: scarp.simplify_points(points, 1, tolerance=np.ones(50))),
                             ("min_angle takes a number", lambda: scarp.simplify(hills(), 1, min_angle=np.ones((2, 2))))):
             with self.assertRaisesRegex(scarp.UsageError, words):
                 call()

@@ -47,6 +47,47 @@ class Points(unittest.TestCase):
         with self.assertRaisesRegex(kind, words):
             call()
 
+    def test_every_point_keeps_a_bound_of_its_own(self):
+        random = np.random.default_rng(5)
+        points = np.floor(random.random((600, 3)) * [6400, 5120, 1920]) / 64  # exact as float32
+        bounds = random.random(600) * 6
+        bounds[::7], bounds[1::7], bounds[2::50] = np.inf, 9, 0
+        for given, tolerance in ((points, bounds), (points.tolist(), list(bounds)), (points, bounds.astype(np.float32)),
+                                 (np.ma.masked_array(points, np.repeat(np.arange(600) == 3, 3).reshape(-1, 3)), bounds)):
+            mesh = scarp.simplify_points(given, 5, tolerance=tolerance, effort="high")
+            vertices, triangles = mesh.vertices, mesh.triangles
+            a, b, c = np.moveaxis(vertices[triangles], 1, 0)
+            kept = np.arange(600) != 3 if isinstance(given, np.ma.MaskedArray) else np.full(600, True)
+            for (x, y, z), bound in zip(points[kept], np.minimum(bounds, 5)[kept]):
+                side = lambda p, q: (q[:, 0] - p[:, 0]) * (y - p[:, 1]) - (q[:, 1] - p[:, 1]) * (x - p[:, 0])
+                u, v, w = side(b, c), side(c, a), side(a, b)
+                area = u + v + w
+                inside = (u >= -1e-9) & (v >= -1e-9) & (w >= -1e-9) & (area > 0)
+                self.assertTrue(inside.any())
+                heights = ((u * a[:, 2] + v * b[:, 2] + w * c[:, 2]) / np.where(area > 0, area, 1))[inside]
+                self.assertLessEqual(np.abs(heights - z).min(), bound * (1 + 1e-6) + 1e-5)
+            self.assertEqual(scarp.measure(given, mesh, tolerance=tolerance, points=True).over, 0)
+        plain = scarp.simplify_points(points, 5, effort="high")
+        self.assertLess(plain.triangle_count, mesh.triangle_count)
+        with self.assertRaises(scarp.PromiseError):
+            scarp.measure(points, plain, tolerance=bounds)
+        # Omitted points do not shift the bounds of the others.
+        some = points.copy()
+        some[4:300:3, 2] = -99
+        bounds[4:300:3] = 0
+        mesh = scarp.simplify_points(some, 5, tolerance=bounds, nodata=-99)
+        self.assertEqual(scarp.measure(np.delete(some, np.s_[4:300:3], 0), mesh, tolerance=np.delete(bounds, np.s_[4:300:3])).over, 0)
+        bounds[9] = -0.5
+        self.refuses(scarp.UsageError, r"tolerance\[9\] is -0.5", lambda: scarp.simplify_points(points, 5, tolerance=bounds))
+        bounds[9] = np.nan
+        self.refuses(scarp.UsageError, r"tolerance\[9\] is nan", lambda: scarp.simplify_points(points, 5, tolerance=bounds))
+        self.refuses(scarp.UsageError, r"tolerance has the shape \(599,\), and there are 600 points",
+                     lambda: scarp.simplify_points(points, 5, tolerance=bounds[1:]))
+        self.refuses(scarp.UsageError, "tolerance is an array of numbers", lambda: scarp.simplify_points(points, 5, tolerance=["a"] * 600))
+        self.refuses(scarp.UsageError, "tolerance of points needs max_error",
+                     lambda: scarp.simplify_points(points, max_triangles=50, tolerance=np.ones(600)))
+        self.refuses(scarp.UsageError, "the points are a file", lambda: scarp.simplify_points("a.csv", 1, tolerance=np.ones(6)))
+
     def test_shapes_outliers_and_rectangles(self):
         random = np.random.default_rng(1)
         points = np.c_[random.random(2000) * 1000, random.random(2000) * 800, np.zeros(2000)]

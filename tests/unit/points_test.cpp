@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
 
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
@@ -265,6 +268,31 @@ TEST(point_sets, sorted_along_the_curve_keep_their_lines_and_duplicates) {
   EXPECT_EQ(at(line[2]), std::tuple(0.0, 9.0, 2.0));
   EXPECT_EQ(at(line[2] + 1), std::tuple(0.0, 9.0, 5.0));
   EXPECT_EQ(at(points.boundary[0][0]), std::tuple(0.0, 0.0, 3.0));
+}
+
+TEST(point_sets, omitted_sorted_and_joined_points_keep_their_tolerances) {
+  PointSet points = set_of({{9, 0, 1}, {0, 9, 2}, {0, 0, 3}, {9, 9, 4}, {5, 5, 5}});
+  points.tolerances = {1, 2, 3, 4};
+  const auto bounds = [&] {
+    std::map<double, float> of_heights;
+    for (std::size_t i = 0; i < points.tolerances.size(); ++i) of_heights[points.z[i]] = points.tolerances[i];
+    return of_heights;
+  };
+  Line corner;
+  corner.points = {{-1, 8, 0}, {1, 8, 0}, {1, 11, 0}, {-1, 8, 0}};
+  corner.role = LineRole::kOuter;
+  EXPECT_EQ(drop_inside(std::vector{corner}, points), 1u);
+  EXPECT_EQ(bounds(), (std::map<double, float>{{1, 1}, {3, 3}, {4, 4}}));
+  const float none = std::numeric_limits<float>::infinity();
+  sort_points(points);
+  EXPECT_EQ(bounds(), (std::map<double, float>{{1, 1}, {3, 3}, {4, 4}, {5, none}}));
+  PointSet more = set_of({{1, 1, 6}, {2, 2, 7}});
+  ASSERT_TRUE(append_points(more, points));
+  EXPECT_EQ(points.tolerances.size(), 4u);
+  more.z = {8, 9};
+  more.tolerances = {8};
+  ASSERT_TRUE(append_points(more, points));
+  EXPECT_EQ(bounds(), (std::map<double, float>{{1, 1}, {3, 3}, {4, 4}, {5, none}, {6, none}, {7, none}, {8, 8}}));
 }
 
 TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {

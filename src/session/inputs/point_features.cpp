@@ -215,7 +215,9 @@ Result<std::vector<float>> read_tolerances(const GivenOptions& given, double bey
                       "error is not below that of the others",
                       kRoi, shell_word(given.all(kRoi)[k])));
   }
-  if (given.has(kTolerance)) {
+  for (std::size_t i = 0; i < points.tolerances.size(); ++i)
+    tolerances[i] = std::min(tolerances[i], points.tolerances[i]);
+  if (given.has(kTolerance) && points.tolerances.empty()) {
     SCARP_TRY(const auto found_any, lower_by_raster(*given[kTolerance], points, progress, tolerances));
     if (!found_any)
       points.warnings.push_back(fmt::format("{} {} lowers the error of no point: it changes nothing", kTolerance,

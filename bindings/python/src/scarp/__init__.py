@@ -158,24 +158,38 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     points with that height, and those without a finite height, are omitted. `crs` and `frame`: as in simplify();
     degrees become metres from the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, with
     edges at most 50 long where the points allow it. Of a LAS or LAZ file, `class_="ground,water"` and `returns="last"`
-    choose points.
+    choose points. `tolerance`:
+    (N,) bounds for the points, besides max_error, at least 0; infinity: none. Or the file of a raster.
     """
     out = C.c_void_p()
     lib = _abi.lib
     if isinstance(max_error, str):
         options["max_error"] = max_error
-    if not isinstance(options.get("tolerance", ""), (str, os.PathLike)):
-        raise UsageError("tolerance of points is the file of a raster, not an array")
+    tolerance = options.get("tolerance")
+    is_array = tolerance is not None and not isinstance(tolerance, (str, os.PathLike))
+    if is_array:
+        del options["tolerance"]
     with _call.Settings(options) as settings:
         _goals(settings, max_error, max_triangles, max_points, threads)
         if isinstance(points, (str, bytes, os.PathLike)):
+            if is_array:
+                raise UsageError("tolerance is an array, and the points are a file: give both as arrays, or both as files")
             _call.run(settings, progress, lib.scarp_simplify_file, _values.path_of(points), settings.pointer,
                       C.byref(out))
         else:
             struct, array = _points_of(points, crs)
             settings.keep.append(array)
+            if is_array:
+                _lend_bounds(settings, tolerance, points, len(array))
             _call.run(settings, progress, lib.scarp_simplify_points, C.byref(struct), settings.pointer, C.byref(out))
     return _finish(out.value)
+
+
+def _lend_bounds(settings: _call.Settings, tolerance: Any, points: Any, count: int) -> None:
+    """Sets the bounds of `count` points, which are the rows of `points` without a masked number."""
+    array = _inputs.point_values(tolerance, points, count, "tolerance")
+    settings.keep.append(array)
+    settings.struct.tolerance = array.ctypes.data
 
 
 def _points_of(points: Any, crs: Any) -> tuple[Any, Any]:
@@ -235,7 +249,7 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
 
     `source` and its position: as in simplify(), or points as in simplify_points(). An array is points with a mesh of
     points, and if its shape is (N, 3), unless the mesh was made from an array of that shape. With transform, nodata,
-    mask or tolerance it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or (N, 3) vertices with
+    mask or tolerance of two dimensions it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or (N, 3) vertices with
     (M, 3) triangles. `fail_above=1.5` raises PromiseError if the error of a sample is larger. Other options as those of
     `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
@@ -245,7 +259,9 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         raise UsageError("a Mesh, or vertices and triangles, not %s" % type(mesh).__name__)
     lib = _abi.lib
     struct = _abi.new_report()
-    of_rasters = {"transform": transform, "nodata": nodata, "mask": mask, "tolerance": tolerance}
+    bounds_points = _inputs.is_row(tolerance)
+    of_rasters = {"transform": transform, "nodata": nodata, "mask": mask,
+                  "tolerance": None if bounds_points else tolerance}
     given = [name for name, value in of_rasters.items() if value is not None]
     is_points = not given and _are_points(source, mesh) if points is None else bool(points)
     if is_points:
@@ -262,6 +278,8 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
         settings.use_threads(threads)
         if not is_points:
             _lend(settings, read, mask, tolerance, options)
+        elif bounds_points:
+            _lend_bounds(settings, tolerance, source, read.field.count)
         judge = lib.scarp_measure_points if is_points else lib.scarp_measure
         what = C.byref(read.field) if read.path is None else read.path
         _call.run(settings, progress, judge if read.path is None else lib.scarp_measure_file, what, mesh._handle,

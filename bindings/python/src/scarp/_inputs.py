@@ -253,6 +253,38 @@ def grid_values(values: Any, source: Input, name: str) -> Any:
     return np.ascontiguousarray(turn.apply(array))
 
 
+def is_row(values: Any) -> bool:
+    """True for an array or a sequence of one dimension."""
+    np = numpy_if_there()
+    return np is not None and not _is_path(values) and values is not None and bool(np.ndim(values) == 1)
+
+
+def point_values(values: Any, points: Any, count: int, name: str) -> Any:
+    """Bounds of points, as float32 rounded down; without the rows of points that have a masked number."""
+    np = numpy_if_there()
+    if isinstance(values, np.ma.MaskedArray):
+        values = values.astype(np.float64).filled(np.inf)
+    try:
+        given = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise UsageError("%s is an array of numbers, one for each point" % name) from None
+    if given.shape != (len(points),):
+        raise UsageError("%s has the shape %s, and there are %d points: it is an array of (%d,)"
+                         % (name, given.shape, len(points), len(points)))
+    bad = np.flatnonzero(~(given >= 0))
+    if bad.size:
+        raise UsageError("%s[%d] is %g: it must be at least 0, and infinity is no bound" % (name, bad[0], given[bad[0]]))
+    mask: Any = points.mask if isinstance(points, np.ma.MaskedArray) else np.ma.nomask
+    if mask is not np.ma.nomask:
+        given = given[~mask.any(axis=1)]
+    assert len(given) == count
+    with np.errstate(over="ignore"):
+        array = given.astype(np.float32)
+    above = array > given
+    array[above] = np.nextafter(array[above], np.float32(0))
+    return np.ascontiguousarray(array)
+
+
 def _is_of_xarray(source: Any) -> bool:
     """A DataArray or a Dataset."""
     return all(hasattr(source, name) for name in ("dims", "coords")) and \
