@@ -76,6 +76,19 @@ done
 grep -q 'tolerances    1[0-9]* points, all kept' "$logs/out" || fail "the summary does not count points with tolerances"
 [ "$(json roi.json strategy roi)" = '["site.geojson=0.1"]' ] || fail "the report does not name the region"
 holds "$(json roi.json with_tolerance) > 150"
+for unit in 10cm,falloff=150m 100e-3m,falloff=15000cm; do
+  succeeds "$scarp" simplify survey.csv units.2dm -e 2 --roi site.geojson=$unit --roi road.geojson=0.5m --overwrite
+  python3 judge.py units.2dm falloff 2500 || fail "units of a region: $unit"
+done
+awk -F, 'NR == 1 { print; next } { printf "%s,%s,%.9f\n", $1, $2, $3 / 0.3048 }' survey.csv >feet.csv
+cp survey.prj feet.prj
+succeeds "$scarp" simplify feet.csv in_feet.2dm -e 2m --z-unit ft --roi site.geojson=10cm
+succeeds "$scarp" measure feet.csv in_feet.2dm --z-unit ft --fail-above 2m --roi site.geojson=10cm
+try "$scarp" measure feet.csv in_feet.2dm --z-unit ft --fail-above 2m --roi site.geojson=1cm
+[ "$code" = 3 ] || fail "a region in feet"
+sed 's/,/ /g; 1d' survey.csv >bare.xyz
+refuses 1 "--roi falloff 150m is a length, and the unit of x and y is unknown: give a number in that unit" \
+  "$scarp" simplify bare.xyz x.2dm -e 2 --columns enz --roi site.geojson=0.1,falloff=150m
 # With lines, a boundary and angles.
 succeeds "$scarp" simplify survey.csv cut.2dm -e 2 --roi site.geojson=0.1 --boundary edge.geojson --breaklines road.geojson,soft
 python3 judge.py cut.2dm roi 1900 || fail "--roi with a boundary and lines"

@@ -14,8 +14,22 @@ layer("site.geojson", "Polygon", square)
 layer("road.geojson", "LineString", [[-84.40, 36.20], [-84.10, 36.40]])
 layer("away.geojson", "Polygon", [[[1, 1], [2, 1], [2, 2], [1, 1]]])
 PYTHON
-refuses 1 "--roi site.geojson=inf: the error inf is not a finite number" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=inf
+refuses 1 "--roi site.geojson=inf: the error inf is neither a finite number" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=inf
 refuses 1 "--roi site.geojson=-1: the error -1 is negative" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=-1
+refuses 1 "--roi site.geojson=30mm: the error 30mm is neither a finite number nor a length such as 2m, 30cm or 1ft" \
+  "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=30mm
+refuses 1 "--roi site.geojson=1%: the error 1% is neither" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=1%
+refuses 1 "--roi falloff far is neither" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=2,falloff=far
+refuses 1 "--roi falloff -3m is negative" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=2,falloff=-3m
+refuses 1 "--roi has no key fallof: choose falloff" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=2,fallof=3
+# Units: the heights of the raster are metres.
+succeeds "$scarp" simplify "$dem" plain.obj -e 50 --roi site.geojson=2,falloff=3048 --report plain.json
+for region in 200cm,falloff=3048m 2m,falloff=10000ft; do
+  succeeds "$scarp" simplify "$dem" units.obj -e 50 --roi site.geojson=$region --report units.json --overwrite
+  cmp <(grep '^[vf]' plain.obj) <(grep '^[vf]' units.obj) || fail "the unit of $region"
+done
+grep -q '"falloff": "10000ft"' units.json || fail "the report of a falloff"
+succeeds "$scarp" measure "$dem" units.obj --fail-above 50 --roi site.geojson=200cm,falloff=3.048e5cm
 for effort in fast high; do
   succeeds "$scarp" simplify "$dem" roi.glb -e 50 --roi site.geojson=2 --effort "$effort" --report roi.json --overwrite
   succeeds "$scarp" measure "$dem" roi.glb --fail-above 50 --roi site.geojson=2

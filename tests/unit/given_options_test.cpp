@@ -68,6 +68,20 @@ TEST(GivenOptions, AFlagOfAPartHasNoValue) {
             std::string::npos);
 }
 
+TEST(GivenOptions, ARegionHasNoOtherKeyThanFalloff) {
+  const auto refusal = [](const std::string& value) {
+    GivenOptions given(kSimplify);
+    return parse(given, {"in.tif", "out.glb", "-e", "5", "--roi", value});
+  };
+  const std::string unknown = "--roi has no key fallof: choose falloff";
+  EXPECT_EQ(refusal("a.geojson=0.1,fallof=3"), unknown);
+  EXPECT_EQ(refusal("a.geojson,fallof=3"), unknown);
+  EXPECT_EQ(refusal("a.geojson=0.1,blur=3"), "--roi has no key blur: choose falloff");
+  EXPECT_EQ(refusal("a.geojson=0.1,falloff=3m"), "");
+  EXPECT_EQ(refusal("a,b=3"), "");
+  EXPECT_EQ(refusal("a=1.geojson=3"), "");
+}
+
 TEST(GivenOptions, UnknownKeysAndRepeatedPartsAreRefused) {
   GivenOptions given(kSimplify), twice(kSimplify);
   EXPECT_EQ(parse(given, {"in.tif", "out.glb", "--cutline", "a.gpkg,insett=1"}),

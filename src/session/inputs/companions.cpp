@@ -72,22 +72,22 @@ Result<std::vector<Region>> read_regions(const GivenOptions& given, const Raster
   options.progress = progress;
   std::vector<Region> regions;
   for (const std::string& text : given.all(kRoi)) {
-    SCARP_TRY(const RegionFile& file, parse_region(text));
+    SCARP_TRY(const RegionFile& file, settle_region(text, raster, companions.warnings));
     SCARP_TRY(auto&& set, read_lines(file.path, options));
     companions.warnings.insert(companions.warnings.end(), set.warnings.begin(), set.warnings.end());
-    regions.push_back({std::move(set.lines), file.tolerance});
+    regions.push_back({std::move(set.lines), file.tolerance.value});
   }
   return regions;
 }
 
-RegionGrid grid_of(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
-                   std::optional<double> bound) {
+Result<RegionGrid> grid_of(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
+                           std::optional<double> bound) {
   RegionGrid grid{field.cols, field.rows, map_affine(raster, field.rows)};
   const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
   grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
   grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
   grid.beyond = bound;
-  grid.falloff = given.number(kFalloff)->value_or(0);
+  SCARP_TRY(grid.falloff, read_falloff(given, has_metres));
   return grid;
 }
 
@@ -128,8 +128,8 @@ Result<void> read_tolerances(const GivenOptions& given, const RasterInfo& raster
   if (in_windows && !regions.empty()) {
     SCARP_RETURN_IF_ERROR(check_regions(field, regions, run.memory));
   }
-  auto made = make_tolerances(std::move(values), regions, grid_of(given, raster, field, bound),
-                              {in_windows, {run.threads, {}, run.progress}});
+  SCARP_TRY(const auto& grid, grid_of(given, raster, field, bound));
+  auto made = make_tolerances(std::move(values), regions, grid, {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option(kTolerance, " ", std::move(made.error()));
   if (given.has(kTolerance) && !made->has_values) {
     companions.warnings.push_back(

@@ -201,13 +201,15 @@ Result<std::vector<float>> read_tolerances(const GivenOptions& given, double bey
   options.progress = progress;
   std::vector<Region> regions;
   for (const std::string& text : given.all(kRoi)) {
-    SCARP_TRY(const RegionFile& file, parse_region(text));
+    SCARP_TRY(const RegionFile& file, settle_region(text, points.heights, points.warnings));
     SCARP_TRY(auto&& lines, read({file.path}, options, points));
-    regions.push_back({std::move(lines), file.tolerance});
+    regions.push_back({std::move(lines), file.tolerance.value});
   }
-  const double unit = points.unit_in_metres > 0 ? points.unit_in_metres : 1;
+  const bool has_metres = points.unit_in_metres > 0;
+  SCARP_TRY(const double falloff, read_falloff(given, has_metres));
   std::vector<bool> found;
-  auto tolerances = region_tolerances(regions, points, given.number(kFalloff)->value_or(0) / unit, beyond, &found);
+  auto tolerances =
+      region_tolerances(regions, points, falloff / (has_metres ? points.unit_in_metres : 1), beyond, &found);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k])
       points.warnings.push_back(

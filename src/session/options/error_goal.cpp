@@ -18,12 +18,16 @@ struct GoalUnit {
 };
 
 constexpr GoalUnit kGoalUnits[] = {{"%", "", 1}, {"mm", "", 1}, {"cm", "m", 100}, {"m", "m", 1}, {"ft", "ft", 1}};
+constexpr double kFoot = 0.3048;
 
-}  // namespace
-
-Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text) {
+/// A goal whose number may not be finite or at least 0; nothing for other text.
+struct Parsed {
   ErrorGoal goal;
-  std::string_view number = text;
+  std::optional<double> number;  ///< before division
+};
+
+Parsed parse(std::string_view number) {
+  ErrorGoal goal;
   double divisor = 1;
   for (const auto& [suffix, unit, of_one] : kGoalUnits) {
     if (!number.ends_with(suffix)) continue;
@@ -34,21 +38,37 @@ Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text) {
     divisor = of_one;
     break;
   }
-  std::optional<double> value = find_number(number);
+  const std::optional<double> value = find_number(number);
+  goal.value = value.value_or(0) / divisor;
+  return {std::move(goal), value};
+}
+
+}  // namespace
+
+Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text) {
+  auto [goal, value] = parse(text);
   SCARP_RETURN_IF_ERROR(check_size(name_of(option), text, value));
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number, in the units of the heights, nor a "
                                                "percentage of the relief such as 0.5%, nor a length such as 1m",
                                                option, shell_word(text)));
   }
-  *value /= divisor;
   if (*value < 0 || std::signbit(*value)) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} is negative: it must be at least 0, and 0 reproduces every sample", option,
                             shell_word(text)));
   }
-  goal.value = *value;
-  return goal;
+  return std::move(goal);
+}
+
+Result<ErrorGoal> parse_length(const std::string& title, const std::string& text) {
+  auto [goal, value] = parse(text);
+  SCARP_RETURN_IF_ERROR(check_size(title, text, value));
+  if (!value || !std::isfinite(*value) || goal.percent_of_relief || goal.is_on_print)
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number nor a length such as 2m, 30cm or 1ft",
+                                               title, shell_word(text)));
+  if (*value < 0) return fail(ErrorKind::kUsage, fmt::format("{} {} is negative", title, shell_word(text)));
+  return std::move(goal);
 }
 
 Result<void> refuse_print(OptionId option, const ErrorGoal& goal) {
@@ -67,7 +87,6 @@ Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& 
                 fmt::format("{} is in {}, and the heights are in '{}', which is no unit of length that is "
                             "known here: give a number without a unit, or name their unit ({})",
                             option, goal.unit, heights.unit, OptionId::kZUnit));
-  constexpr double kFoot = 0.3048;
   const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // feet of any kind mean the heights' own feet
   const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
   const double given = goal.value;
@@ -79,6 +98,11 @@ Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& 
                     metres == 1 ? "metres" : heights.crs_unit, option, format_number(given), goal.unit,
                     format_number(goal.value), OptionId::kZUnit));
   return {};
+}
+
+std::optional<double> metres_of(const ErrorGoal& length) {
+  if (length.unit.empty()) return std::nullopt;
+  return length.value * (length.unit == "m" ? 1 : kFoot);
 }
 
 Error name_goal(const ErrorGoal& goal, double relief, Error error) {

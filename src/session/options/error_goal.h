@@ -1,6 +1,7 @@
 // The value of -e/--max-error and of --fail-above.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,12 +23,16 @@ struct ErrorGoal {
 };
 /// Parses a number, perhaps followed by % or a unit: m, cm, ft, or mm of a print.
 Result<ErrorGoal> parse_error_goal(OptionId option, const std::string& text);
+/// Parses a number of at least 0, perhaps followed by a unit: m, cm, ft. `title`: for errors.
+Result<ErrorGoal> parse_length(const std::string& title, const std::string& text);
 /// Fails for a goal in millimetres of a print if there is no print.
 Result<void> refuse_print(OptionId option, const ErrorGoal& goal);
 /// Converts a goal with a unit to the unit of the heights. Warns if that unit is assumed; fails with kUsage if it is
 /// not a length.
 Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& goal,
                          std::vector<std::string>& warnings);
+/// A length in metres; nothing without a unit.
+std::optional<double> metres_of(const ErrorGoal& length);
 /// Adds the requested share of the relief to the library's error about a max error.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/alike.h"
 #include "scarp/version.h"
 #include "session/options/option_rules.h"
 #include "session/text/text.h"
@@ -47,12 +48,21 @@ std::size_t find_next_part(const Rows& parts, std::string_view text, std::size_t
   return text.size();
 }
 
+/// True if there is no other "=M" in the value of a region than behind the comma, and the key is like no part's.
+bool is_in_name(const Rows& parts, const std::string& text, std::size_t equals, const std::string& key) {
+  constexpr std::size_t kMostTypos = 2;
+  return text.find('=') == equals && std::none_of(parts.begin(), parts.end(), [&](const OptionRow* part) {
+           return count_typos(part->key, key) <= kMostTypos;
+         });
+}
+
 /// Fails for ",inser=2" in the rest of a value without its parts.
 Result<void> check_keys(const OptionRow& row, const Rows& parts, const std::string& text) {
   const std::size_t comma = text.rfind(','), equals = text.find('=', comma);
-  if (comma == std::string::npos || equals == std::string::npos || row.id == kRoi) return {};
+  if (comma == std::string::npos || equals == std::string::npos) return {};
   const std::string key = text.substr(comma + 1, equals - comma - 1);
   if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) return {};
+  if (row.id == kRoi && is_in_name(parts, text, equals, key)) return {};
   std::string known;
   for (const OptionRow* part : parts)
     known += (known.empty() ? "" : part == parts.back() ? " or " : ", ") + std::string(part->key);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "session/options/error_goal.h"
 #include "session/options/given_options.h"
 
 namespace scarp::cli {
@@ -15,11 +16,17 @@ bool gives_bounds(const GivenOptions& given);
 /// A region of interest of --roi.
 struct RegionFile {
   std::string path;  ///< includes the layer
-  double tolerance;
+  ErrorGoal tolerance;
 };
 
 /// Parses FILE[:LAYER]=M. Fails with kUsage.
 Result<RegionFile> parse_region(const std::string& text);
+/// The same, with M in the unit of the heights. Fails and warns as settle_goal() does.
+Result<RegionFile> settle_region(const std::string& text, const RasterInfo& heights,
+                                 std::vector<std::string>& warnings);
+/// The falloff; 0: none. In metres if the unit of x and y has a known length (`has_metres`), else in that unit. kUsage
+/// for a length where none is known.
+Result<double> read_falloff(const GivenOptions& given, bool has_metres);
 /// Fails with kUsage for an invalid region or falloff.
 Result<void> check_regions(const GivenOptions& given);
 

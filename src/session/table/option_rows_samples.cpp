@@ -112,8 +112,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Region of interest: errors are at most M in the polygons, and on the lines, of a vector file. Can be "
-             "used without -e, but not for points; where regions overlap, the smallest M counts.",
+     .help = "Region of interest: errors are at most M, such as 0.2 or 20cm, in the polygons, and on the lines, of a "
+             "vector file. Can be used without -e, but not for points; where regions overlap, the smallest M counts.",
      .brief = "Errors of at most M in the polygons of a vector file"},
     {.id = kRoi,
      .name = "--roi",
@@ -137,9 +137,9 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "0",
      .least = 0,
      .is_for_points = true,
-     .help =
-         "Distance over which the bound blends from that of each region to that of all samples. In metres if known, "
-         "else in units of the CRS."},
+     .help = "Distance over which the bound blends from that of each region to that of all samples, such as 500 or "
+             "500m. In "
+             "metres if known, else in units of the CRS."},
     {.id = kScript,
      .name = "--script",
      .commands = kSimplify,
