@@ -37,6 +37,16 @@ succeeds "$scarp" simplify "$dem" pictured.glb -e 20 --mask picture.png
 grep -q '^scarp: warning: picture.png: this is a colour picture, and its first band alone, red, is taken for the values$' \
   "$logs/err" || fail "a picture is a mask without a word"
 
+# So has a raster of several bands.
+make_raster ones.tif 1
+gdal_translate -q -b 1 -b 1 ones.tif stack.tif
+for option in --mask --tolerance; do
+  succeeds "$scarp" simplify "$dem" stacked.glb -e 20 $option stack.tif --overwrite
+  grep -q '^scarp: warning: stack.tif: has 2 bands, and its first alone is taken for the values: select another (gdal_translate -b 2 stack.tif NEW.tif)$' \
+    "$logs/err" || fail "$option: a band is chosen without a word"
+done
+rm ones.tif
+
 # A mask of 1 everywhere changes almost nothing: bounds are rounded downwards to float32.
 make_raster ones.tif 1 Byte
 succeeds "$scarp" simplify "$dem" plain.obj -e 20 --effort fast --report plain.json

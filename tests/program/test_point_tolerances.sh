@@ -27,6 +27,7 @@ PY
 gdal_translate -q -a_srs EPSG:32616 accuracy.asc accuracy.tif
 gdal_translate -q -a_srs EPSG:32616 minus.asc minus.tif
 gdal_translate -q -a_srs EPSG:32617 accuracy.asc elsewhere.tif
+gdal_translate -q -b 1 -b 1 accuracy.tif stack.tif
 
 cat >judge.py <<'PY'
 import math, sys
@@ -111,5 +112,7 @@ cmp <(grep -E '^(ND|E3T)' away.2dm) <(grep -E '^(ND|E3T)' plain.2dm) || fail "a 
 refuses 1 "--roi of points needs --max-error, the error of all others" "$scarp" simplify survey.csv x.glb --roi site.geojson=0.1
 refuses 1 "--tolerance of points needs" "$scarp" simplify survey.csv x.glb -e 2 -t 500 --tolerance accuracy.tif
 refuses 2 "gdalwarp -t_srs EPSG:32616 elsewhere.tif" "$scarp" simplify survey.csv x.glb -e 2 --tolerance elsewhere.tif
+succeeds "$scarp" simplify survey.csv stack.2dm -e 2 --tolerance stack.tif
+grep -q 'stack.tif: has 2 bands, and its first alone is taken for the values' "$logs/err" || fail "a band is chosen without a word"
 refuses 2 "minus.tif: the tolerance -1 in column 0, row 7 is negative" "$scarp" simplify survey.csv x.glb -e 2 --tolerance minus.tif
 refuses 2 "accuracy.asc" "$scarp" simplify survey.csv x.glb -e 2 --tolerance nowhere/accuracy.asc

@@ -112,9 +112,17 @@ Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path,
 void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_values, RasterInfo& info) {
   const GDALColorInterp meaning = GDALGetRasterColorInterpretation(sense.band);
   if (as_values) {
+    int count = 0;
+    for (int k = 1; k <= GDALGetRasterCount(dataset); ++k)
+      count += GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, k)) != GCI_AlphaBand ? 1 : 0;
     if (meaning == GCI_RedBand && GDALGetRasterCount(dataset) >= 3)
       info.warnings.push_back(info.path +
                               ": this is a colour picture, and its first band alone, red, is taken for the values");
+    else if (count > 1)
+      info.warnings.push_back(
+          fmt::format("{}: has {} bands, and its first alone is taken for the values: select another "
+                      "({})",
+                      info.path, count, translate_command("-b 2", info.path)));
     if (meaning == GCI_PaletteIndex)
       info.warnings.push_back(
           info.path + ": this is a picture with a palette, and the numbers of its colours are taken for the values");

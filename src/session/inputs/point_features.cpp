@@ -89,7 +89,7 @@ void warn_of_two_heights(const std::vector<Line>& lines, PointSet& points) {
 
 /// Lowers tolerances to the raster's value at the point. Pixels without a value and places outside the raster have
 /// none. False if it lowers none.
-Result<bool> lower_by_raster(const std::string& path, const PointSet& points, const ProgressCallback& progress,
+Result<bool> lower_by_raster(const std::string& path, PointSet& points, const ProgressCallback& progress,
                              std::vector<float>& tolerances) {
   ReadOptions options;
   options.crs = "grid";
@@ -97,6 +97,7 @@ Result<bool> lower_by_raster(const std::string& path, const PointSet& points, co
   options.run.progress = progress;
   Result<OwnedHeightField> values = read_height_field(path, options);
   if (!values) return fail(values.error().kind, fmt::format("{}: {}", kTolerance, values.error().message));
+  points.warnings.insert(points.warnings.end(), values->info.warnings.begin(), values->info.warnings.end());
   const std::string& crs = points.is_local ? points.source_crs : points.crs;
   if (!crs.empty() && !values->info.crs.empty() && crs != values->info.crs)
     return fail(ErrorKind::kInput,
