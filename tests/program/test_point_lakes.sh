@@ -114,5 +114,11 @@ succeeds "$scarp" simplify survey.csv cut.ply -e 0.5 --boundary site.geojson
 cmp cut.ply cutline.ply || fail "--cutline makes another mesh than --boundary"
 succeeds "$scarp" measure survey.csv cutline.ply --fail-above 0.5
 succeeds "$scarp" measure survey.csv plain.2dm --cutline site.geojson --fail-above 0.5
-refuses 1 "join them, and give it with --boundary" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline site.geojson --cutline lake.geojson
+refuses 1 "--cutline of points takes one file, and 2 are given: join them first" \
+  "$scarp" simplify survey.csv x.ply -e 0.5 --cutline site.geojson --cutline lake.geojson
+refuses 1 "--cutline and --boundary both end the surface of points" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline site.geojson --boundary hull
+refuses 1 "--cutline hull is no file of polygons" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline hull
+refuses 1 "--cutline concave:1.5 is no file of polygons" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline concave:1.5
+refuses 2 "and --cutline needs polygons" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline line.geojson
+refuses 2 "no point lies within --cutline far.geojson" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline far.geojson
 refuses 1 "--cutline inset is for rasters" "$scarp" simplify survey.csv x.ply -e 0.5 --cutline site.geojson,inset=5

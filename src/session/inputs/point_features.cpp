@@ -229,32 +229,33 @@ Result<std::vector<float>> read_tolerances(const GivenOptions& given, double bey
   return tolerances;
 }
 
-Result<std::vector<Line>> read_boundary(const GivenOptions& given, const ProgressCallback& progress, PointSet& points) {
+Result<std::vector<Line>> read_boundary(const GivenOptions& given, OptionId called, const ProgressCallback& progress,
+                                        PointSet& points) {
   SCARP_TRY(const auto& boundary, parse_boundary(given));
   if (boundary.file.empty()) return std::vector<Line>();
   ReadLinesOptions options;
   options.ignore_z = true;
   options.progress = progress;
   SCARP_TRY(const auto& rings, read({boundary.file}, options, points));
-  SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(kBoundary), name_of(kBreaklines)));
+  SCARP_RETURN_IF_ERROR(check_polygons(rings, name_of(called), name_of(kBreaklines)));
   return inset_polygons(rings, 0);
 }
 
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, DuplicatePolicy duplicates,
-                                                   double tolerance, const ProgressCallback& progress,
-                                                   PointSet& points) {
-  SCARP_TRY(const auto& rings, read_boundary(given, progress, points));
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, OptionId called,
+                                                   DuplicatePolicy duplicates, double tolerance,
+                                                   const ProgressCallback& progress, PointSet& points) {
+  SCARP_TRY(const auto& rings, read_boundary(given, called, progress, points));
   if (rings.empty()) return std::nullopt;
   const std::uint64_t given_points = points.size();
   SCARP_TRY(const auto& cut, scarp::cut_to_boundary(rings, tolerance, points, duplicates));
   if (cut.points_outside >= given_points)
-    return fail(ErrorKind::kInput, fmt::format("no point lies within {} {}: are both in one CRS?", kBoundary,
-                                               shell_word(*given[kBoundary])));
+    return fail(ErrorKind::kInput,
+                fmt::format("no point lies within {} {}: are both in one CRS?", called, shell_word(*given[kBoundary])));
   if (cut.corners_beyond > 0)
     points.warnings.push_back(
         fmt::format("{} of {} lie up to {:.6g} beyond the points, where heights are those of the "
                     "nearest place on the points' hull",
-                    format_plural(cut.corners_beyond, "corner"), kBoundary, cut.farthest));
+                    format_plural(cut.corners_beyond, "corner"), called, cut.farthest));
   return cut;
 }
 

@@ -23,9 +23,10 @@ Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, DuplicatePol
 Result<void> drop_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
 /// Ends the points at the polygons of --boundary, if that names a file. `tolerance`: of the surface along them.
-Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, DuplicatePolicy duplicates,
-                                                   double tolerance, const ProgressCallback& progress,
-                                                   PointSet& points);
+/// `called`: the option in messages.
+Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, OptionId called,
+                                                   DuplicatePolicy duplicates, double tolerance,
+                                                   const ProgressCallback& progress, PointSet& points);
 
 /// The points' tolerances by --tolerance and --roi, the smaller one of both, with `beyond` elsewhere; empty without
 /// them. A file that lowers none causes a warning.
@@ -33,6 +34,7 @@ Result<std::vector<float>> read_tolerances(const GivenOptions& given, double bey
                                            PointSet& points);
 
 /// The polygons of --boundary, united; empty if it names no file.
-Result<std::vector<Line>> read_boundary(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
+Result<std::vector<Line>> read_boundary(const GivenOptions& given, OptionId called, const ProgressCallback& progress,
+                                        PointSet& points);
 
 }  // namespace scarp::cli

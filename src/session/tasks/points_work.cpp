@@ -203,15 +203,25 @@ Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& 
 Result<GivenOptions> boundary_of_cutline(const GivenOptions& given) {
   if (!given.has(kCutline)) return given;
   const std::vector<std::string> files = given.all(kCutline);
-  if (given.has(kBoundary) || files.size() > 1)
-    return fail(ErrorKind::kUsage, fmt::format("the surface of points ends at the polygons of one file: join them, and "
-                                               "give it with {}",
-                                               kBoundary));
+  if (given.has(kBoundary))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} and {} both end the surface of points: give one of them", kCutline, kBoundary));
+  if (files.size() > 1)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} of points takes one file, and {} are given: join them first", kCutline, files.size()));
+  if (const std::string& file = files.front(); file.find('.') == std::string::npos || file.starts_with("concave:"))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} is no file of polygons, such as site.geojson; {} takes other ends "
+                            "of the surface, too",
+                            kCutline, shell_word(file), kBoundary));
   GivenOptions asked = given;
   asked.set(kBoundary, Given(files.front()));
   asked.set(kCutline, GivenOptions::Texts());
   return asked;
 }
+
+/// The option that ends the surface, as stated, for messages.
+OptionId end_option(const GivenOptions& stated) { return stated.has(kCutline) ? kCutline : kBoundary; }
 
 /// Warns where the convex hull bridges bays or has slivers.
 void suggest_boundary(const HullFit& fit, PointsOutcome& outcome) {
@@ -262,8 +272,8 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
     SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
     SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, points.heights, *plan.error_goal, points.warnings));
   }
-  SCARP_TRY(outcome.cut,
-            cut_to_boundary(given, policy, tolerance_along_boundary(plan, points), runner.progress, points));
+  SCARP_TRY(outcome.cut, cut_to_boundary(given, end_option(stated), policy, tolerance_along_boundary(plan, points),
+                                         runner.progress, points));
   outcome.points = std::move(points);
   if (!outcome.points.lines.empty()) {
     const auto option = given.first_of({kWater, kBreaklines});
@@ -383,7 +393,7 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
   Cutline ends;
-  SCARP_TRY(ends.rings, read_boundary(asked, runner.progress, *points));
+  SCARP_TRY(ends.rings, read_boundary(asked, end_option(stated), runner.progress, *points));
   if (!ends.rings.empty()) drop_outside(ends.rings, *points);
   SCARP_RETURN_IF_ERROR(drop_lakes(asked, runner.progress, *points));
   judged.points = std::move(*points);
