@@ -47,6 +47,12 @@ area = lambda a, b, c: ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - 
 assert abs(sum(area(*face) for face in lake) - (290 * 240 - 5900 - 3600)) < 8000, sum(area(*face) for face in lake)
 PY
 done
+# A format without metadata: the judge needs the option.
+succeeds "$scarp" simplify survey.csv lake.stl -e 0.5 --water lake.geojson -q
+refuses 3 "exceeds 0.5" "$scarp" measure survey.csv lake.stl --fail-above 0.5 -q
+succeeds "$scarp" measure survey.csv lake.stl --fail-above 0.5 --water lake.geojson
+refuses 3 "exceeds 0.5" "$scarp" measure survey.csv lake.2dm --fail-above 0.5 --water far.geojson -q
+refuses 1 "--water is for scattered points, and" "$scarp" measure "$dem" lake.stl --water lake.geojson
 low=$(json lake.json water 0 level)
 succeeds "$scarp" simplify survey.csv high.2dm -e 0.5 --water lake.geojson,percentile=90 --report high.json
 holds "$(json high.json water 0 level) > $low + 1"

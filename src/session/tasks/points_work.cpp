@@ -378,7 +378,8 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
     asked.set(of.option, Given(entry->second));
     if (!of.is_of_content) of_other_file.set(of.option, Given(entry->second));
   }
-  if (const auto entry = judged.mesh.metadata.find("water"); entry != judged.mesh.metadata.end()) {
+  if (const auto entry = judged.mesh.metadata.find("water");
+      !given.has(kWater) && entry != judged.mesh.metadata.end()) {
     const Json files = Json::parse(entry->second, nullptr, false);
     if (files.is_array() && std::all_of(files.begin(), files.end(), [](const Json& file) { return file.is_string(); }))
       asked.set(kWater, files.get<GivenOptions::Texts>());
