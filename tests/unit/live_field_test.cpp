@@ -98,7 +98,9 @@ TEST(live_field, keeps_slots_while_it_moves) {
     ASSERT_TRUE(live.scroll(step, step / 2).has_value());
     const auto after = slots();
     for (const auto& [place, slot] : after) {
-      if (before.contains(place)) EXPECT_EQ(before[place], slot);
+      if (before.contains(place)) {
+        EXPECT_EQ(before[place], slot);
+      }
     }
     before = after;
   }
