@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -25,6 +26,11 @@ namespace scarp::door {
 namespace {
 
 scarp_status refuse(const char* what) { return report(ErrorKind::kUsage, std::string(what) + " is a null pointer"); }
+
+scarp_status refuse_index(uint64_t index, const scarp_changes& changes) {
+  return report(ErrorKind::kUsage,
+                "there is no cell " + std::to_string(index) + " among " + std::to_string(changes.changes.cells.size()));
+}
 
 scarp_status report_if_failed(const Result<void>& done) { return done ? SCARP_OK : report(done.error()); }
 
@@ -66,10 +72,13 @@ scarp_status scarp_live_create(const scarp_field* given, const scarp_live_option
     if (!settings) return report(settings.error());
     const LentInputs inputs(given, known<scarp_options>(nullptr, scarp_options_init));
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    const auto field = scarp::read_height_field(inputs.name(), {.default_frame = scarp::DefaultFrame::kMetric});
+    // Values may all be missing: a map without any height yet is no error.
+    const auto field =
+        scarp::read_height_field(inputs.name(), {.default_frame = scarp::DefaultFrame::kMetric, .as_values = true});
     if (!field) return report(field.error());
-    auto live =
-        scarp::LiveField::create(field->view(), *settings, samples_of(asked.tolerance, field->cols, field->rows));
+    scarp::HeightField view = field->view();
+    if (!std::isnan(given->nodata)) view.nodata = static_cast<float>(given->nodata);
+    auto live = scarp::LiveField::create(view, *settings, samples_of(asked.tolerance, field->cols, field->rows));
     if (!live) return report(live.error());
     *out = new scarp_live{std::move(*live), field->frame};
     return SCARP_OK;
@@ -109,9 +118,7 @@ uint64_t scarp_changes_count(const scarp_changes* changes) { return changes->cha
 scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, scarp_live_cell* out) {
   return guarded([&]() -> scarp_status {
     if (changes == nullptr || out == nullptr) return refuse("the changes, or the place for a cell,");
-    if (index >= changes->changes.cells.size())
-      return report(scarp::ErrorKind::kUsage, "there is no cell " + std::to_string(index) + " among " +
-                                                  std::to_string(changes->changes.cells.size()));
+    if (index >= changes->changes.cells.size()) return refuse_index(index, *changes);
     const scarp::LiveCell& cell = *changes->changes.cells[index];
     scarp_live_cell all{};
     all.slot = cell.slot;
@@ -124,6 +131,16 @@ scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, sc
     all.indices = cell.triangles.data();
     all.max_error = cell.max_error;
     hand_out(all, out);
+    return SCARP_OK;
+  });
+}
+
+scarp_status scarp_changes_cut(const scarp_changes* changes, uint64_t index, scarp_changes** out) {
+  return guarded([&]() -> scarp_status {
+    if (changes == nullptr || out == nullptr) return refuse("the changes, or the place for a part of them,");
+    *out = nullptr;
+    if (index >= changes->changes.cells.size()) return refuse_index(index, *changes);
+    *out = new scarp_changes{{changes->changes.version, {changes->changes.cells[index]}}};
     return SCARP_OK;
   });
 }
@@ -154,9 +171,8 @@ scarp_status scarp_live_mesh(const scarp_live* live, scarp_mesh** out) {
 scarp_status scarp_live_heights(const scarp_live* live, float* out) {
   return guarded([&]() -> scarp_status {
     if (live == nullptr || out == nullptr) return refuse("the live field, or the place for its heights,");
-    const auto heights = live->field.heights();
-    if (!heights) return report(heights.error());
-    std::copy(heights->begin(), heights->end(), out);
+    const std::vector<float> heights = live->field.heights();
+    std::copy(heights.begin(), heights.end(), out);
     return SCARP_OK;
   });
 }

@@ -138,11 +138,11 @@ typedef struct scarp_report {
 /* Settings of a live field. */
 typedef struct scarp_live_options {
   uint32_t struct_size;
-  int32_t threads;        /* for an update that touches several cells; never changes the result. DEFAULT: 1. */
-  double max_error;       /* in z units, at least 0. DEFAULT: 0. */
-  int32_t effort;         /* 0 fast, 1 normal, 2 high. DEFAULT: 0. */
-  int32_t cell;           /* samples along a cell, 8 to 255. DEFAULT: 0, which is 32 with fast, else 64. */
-  int32_t col, row;       /* the field's first sample on the lattice of cells. DEFAULT: 0. */
+  int32_t threads;  /* for an update that touches several cells; never changes the result. DEFAULT: 1. */
+  double max_error; /* in z units, at least 0. DEFAULT: 0. */
+  int32_t effort;   /* 0 fast, 1 normal, 2 high. DEFAULT: 0. */
+  int32_t cell;     /* steps between samples along a cell, 8 to 254. DEFAULT: 0, which is 32 with fast, else 64. */
+  int32_t col, row; /* the field's first sample on the lattice of cells. DEFAULT: 0. */
   const float* tolerance; /* NULL, or a bound for each sample of the field */
 } scarp_live_options;
 
@@ -283,21 +283,25 @@ void scarp_refiner_free(scarp_refiner* refiner);
  * the same col and row. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
-/* Replaces a window of cols * rows samples, row by row; NaN is a void. `tolerance`: NULL (they stay), or as many. */
+/* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: NULL (they
+ * stay), or as many. */
 scarp_status scarp_live_update(scarp_live* live, int32_t col, int32_t row, int32_t cols, int32_t rows,
                                const float* heights, const float* tolerance);
 /* Moves the field so many columns east and rows down; what enters is void until an update. */
 scarp_status scarp_live_scroll(scarp_live* live, int32_t cols, int32_t rows);
-/* The cells that changed after the version `since` (0: all), those that became empty included, by slot. */
+/* The cells that changed after the version `since`, by slot, those that became empty included; after 0 all that have a
+ * surface. A cell replaces the one that its slot had. */
 scarp_status scarp_live_changes(const scarp_live* live, uint64_t since, scarp_changes** out);
 uint64_t scarp_changes_version(const scarp_changes* changes); /* for the next call */
 uint64_t scarp_changes_count(const scarp_changes* changes);
 /* Fills `out`, whose struct_size the caller sets. */
 scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, scarp_live_cell* out);
+/* One cell alone, whose memory it keeps when the others are freed. */
+scarp_status scarp_changes_cut(const scarp_changes* changes, uint64_t index, scarp_changes** out);
 void scarp_changes_free(scarp_changes* changes);
 /* The whole as one mesh, in coordinates that stay while the field moves. */
 scarp_status scarp_live_mesh(const scarp_live* live, scarp_mesh** out);
-/* Fills `out` with the current cols * rows samples. */
+/* Fills `out` with the current cols * rows samples; waits for a change that runs. */
 scarp_status scarp_live_heights(const scarp_live* live, float* out);
 void scarp_live_place(const scarp_live* live, int32_t* col, int32_t* row);
 /* The geotransform of the field where it lies now, in the coordinates of the mesh: for scarp_measure(). */

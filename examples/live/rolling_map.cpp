@@ -76,8 +76,7 @@ scarp::Result<void> run(double seconds, const char* path) {
     SCARP_RETURN_IF_ERROR(live.scroll(step, 0));
     clock.stop();
     east += step;
-    SCARP_TRY(const auto& heights, live.heights());
-    const Scan seen = measure(east, heights, random);
+    const Scan seen = measure(east, live.heights(), random);
     clock.start();
     SCARP_RETURN_IF_ERROR(live.update(seen.window, seen.heights));
     const scarp::LiveChanges changes = live.changes(version);
@@ -87,7 +86,7 @@ scarp::Result<void> run(double seconds, const char* path) {
     for (const auto& cell : changes.cells) sent += cell->triangle_count();
   }
   const scarp::Mesh mesh = live.mesh();
-  SCARP_TRY(const auto& heights, live.heights());
+  const std::vector<float> heights = live.heights();
   scarp::HeightField now = map;
   now.samples = heights.data();
   now.frame = live.frame();
@@ -108,7 +107,12 @@ scarp::Result<void> run(double seconds, const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto done = run(argc > 1 ? std::atof(argv[1]) : 10, argc > 2 ? argv[2] : nullptr);
+  const double seconds = argc > 1 ? std::atof(argv[1]) : 10;
+  if (!(seconds > 0)) {
+    std::fprintf(stderr, "usage: rolling_map [SECONDS] [MESH]\n");
+    return 1;
+  }
+  const auto done = run(seconds, argc > 2 ? argv[2] : nullptr);
   if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
   return done ? 0 : 1;
 }

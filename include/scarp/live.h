@@ -30,8 +30,8 @@ namespace scarp {
 struct LiveOptions {
   double max_error = 0;           ///< vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample
   Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
-  /// Samples along the side of a cell, 8 to 255. Small cells need less time and, above fast effort, more triangles
-  /// (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
+  /// Steps between samples along the side of a cell, 8 to 254. Small cells need less time and, above fast effort, more
+  /// triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
   int cell = 0;
   /// Threads of an update that touches several cells, as Run::threads. Never changes the result.
   int threads = 1;
@@ -45,8 +45,8 @@ struct LiveWindow {
   int col = 0, row = 0, cols = 0, rows = 0;
 };
 
-/// The mesh of a cell: a square of one sample more than LiveOptions::cell a side, of which the last row and column are
-/// also those of the next cells. Immutable.
+/// The mesh of a cell: LiveOptions::cell + 1 samples a side, of which the last row and column are also those of the
+/// next cells; fewer where the field ends. Immutable.
 struct LiveCell {
   /// The cell's place in a renderer's buffer; at most one cell of the field has it. Slots count from 0 to
   /// LiveField::slot_count() − 1 and stay the same while the field moves.
@@ -56,7 +56,8 @@ struct LiveCell {
   /// Three for each vertex: columns east and rows north of the first sample (so y <= 0), and the height. Whole numbers,
   /// or with kHigh eighths. Vertices on the cell's border are samples, and the neighbours have the same.
   std::vector<float> positions;
-  /// Three for each triangle, counter-clockwise from above, in an order good for a GPU. Empty: the cell has no surface.
+  /// Three for each triangle, counter-clockwise from above in these coordinates, in an order good for a GPU. Empty: the
+  /// cell has no surface.
   std::vector<std::uint16_t> triangles;
   double max_error = 0;  ///< measured
 
@@ -79,18 +80,19 @@ struct LiveChanges {
 /// Guarantee after each change: the guarantees of simplify() hold for every cell, hence for the field; the domain is
 /// that of simplify() for the whole field. Neighbouring cells share the vertices of their border: no cracks.
 ///
-/// Samples: NaN and infinities are voids. Tolerances, if the field has them, are bounds of samples as in
-/// Tolerances::values. Frames: affine. Fields with channels or a source fail with kUsage.
+/// Samples: NaN, infinities and HeightField::nodata are voids, also in updates. Tolerances, if the field has them, are
+/// bounds of samples as in Tolerances::values. Frames: affine. Fields with channels or a source fail with kUsage.
 ///
 /// Threads: one thread at a time may change the field; a second one gets an error. Any number may call changes(),
 /// mesh(), max_error() and triangle_count() meanwhile: they see the state before or after a change, and a lock is held
-/// only while pointers are copied.
+/// only while pointers are copied. heights() and a change wait for each other.
 ///
 /// Errors: kUsage for windows outside the field and arrays of the wrong size, and those of simplify(). The field is
 /// then unchanged.
 ///
 /// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
-/// cell's size); independent of the size of the field, except for reading its list of cells: some 1 ns a cell.
+/// cell's size); independent of the size of the field, except for reading its list of cells: some 1 ns a cell. That of
+/// scroll(): the cells along the field's border.
 /// Memory: 4 bytes a sample (8 with tolerances), and the cells' meshes.
 class LiveField {
  public:
@@ -110,7 +112,8 @@ class LiveField {
   /// and are not copied. The others are voids until an update, without a tolerance of their own.
   Result<void> scroll(int cols, int rows);
 
-  /// The cells that changed after the version `since` (0: all), those that became empty included.
+  /// The cells that changed after the version `since`, those that became empty included; after 0 all that have a
+  /// surface. A cell replaces the one that its slot had.
   LiveChanges changes(std::uint64_t since = 0) const;
   /// The cells as one mesh, with double positions, in coordinates that stay while the field moves: those of the frame
   /// that it was made with. Vertices on borders of cells are shared. Judge it in frame().
@@ -120,8 +123,8 @@ class LiveField {
   std::uint64_t triangle_count() const;
   std::uint32_t slot_count() const;
 
-  /// The current samples, row by row. Fails with kUsage during a change.
-  Result<std::vector<float>> heights() const;
+  /// A copy of the current samples, row by row.
+  std::vector<float> heights() const;
   /// The place of the first sample now, on the lattice of LiveOptions::place.
   SampleAt place() const;
   /// The frame of the field where it lies now: sample (0, 0) is the first. Cell positions in it:

@@ -45,9 +45,9 @@ Result<void> check(const HeightField& field, const LiveOptions& options, std::si
   if (field.cols < 2 || field.rows < 2)
     return refuse(fmt::format("needs 2 × 2 samples at least, not {} × {}", field.cols, field.rows));
   if (!(options.max_error >= 0) || !std::isfinite(options.max_error))
-    return refuse(fmt::format("needs a max error of at least 0, not {}", options.max_error));
+    return refuse(fmt::format("needs a finite max error of at least 0, not {}", options.max_error));
   if (options.effort == Effort::kMax) return refuse("has efforts up to high: max takes seconds for a cell");
-  constexpr int kLeast = 8, kMost = 255;
+  constexpr int kLeast = 8, kMost = 254;
   if (options.cell != 0 && (options.cell < kLeast || options.cell > kMost))
     return refuse(fmt::format("has cells of {} to {} samples, not {}", kLeast, kMost, options.cell));
   const std::size_t samples = std::size_t(field.cols) * std::size_t(field.rows);
@@ -58,6 +58,12 @@ Result<void> check(const HeightField& field, const LiveOptions& options, std::si
   };
   if (reaches(options.place.col, field.cols) || reaches(options.place.row, field.rows))
     return refuse("lies within 2^30 samples of the place 0, 0");
+  const std::array<double, 6>& to = field.frame.affine;
+  const double reach = std::abs(to[0]) + std::abs(to[3]) + (std::abs(to[1]) + std::abs(to[4])) * field.cols +
+                       (std::abs(to[2]) + std::abs(to[5])) * field.rows;
+  const double step = std::min(std::hypot(to[1], to[4]), std::hypot(to[2], to[5]));
+  if (field.frame.determinant() == 0 || !(step > reach * std::numeric_limits<double>::epsilon()))
+    return refuse("needs a frame whose samples lie apart in x and y: move it nearer to 0, or give larger cells");
   return {};
 }
 
@@ -97,6 +103,7 @@ struct LiveField::Impl {
       : options(asked),
         frame(field.frame),
         sample_rounding(field.sample_rounding),
+        nodata(field.nodata),
         area(area_of(asked.place, field.cols, field.rows)),
         lattice(side_of(asked), field.cols, field.rows),
         heights(field.cols, field.rows, std::numeric_limits<float>::quiet_NaN()) {
@@ -201,7 +208,7 @@ struct LiveField::Impl {
     heights.read(patch.area, area, old_heights.data());
     if (!new_bounds.empty()) tolerances->read(patch.area, area, old_bounds.data());
     patch.heights.reserve(count);
-    for (const float height : new_heights) patch.heights.push_back(height_or_void(height, std::nullopt));
+    for (const float height : new_heights) patch.heights.push_back(height_or_void(height, nodata));
     patch.tolerances.assign(new_bounds.begin(), new_bounds.end());
     Area turned;
     std::size_t k = 0;
@@ -272,6 +279,7 @@ struct LiveField::Impl {
         if (is_used[slot] || now.cells[slot]->triangles.empty()) continue;
         made.push_back(std::make_shared<LiveCell>());
         made.back()->slot = slot;
+        made.back()->place = now.cells[slot]->place;
       }
     });
   }
@@ -324,11 +332,13 @@ struct LiveField::Impl {
   const LiveOptions options;
   const Frame frame;  // the field's when it was made
   const double sample_rounding;
+  const std::optional<float> nodata;
   Area area;
   const CellLattice lattice;
   SampleRing heights;
   std::optional<SampleRing> tolerances;
   Shared<Writer> writer;
+  mutable Mutex samples;  // held by a change, and while they are copied
   mutable Shared<Shown> shown;
 };
 
@@ -340,20 +350,21 @@ Result<void> check_window(const LiveWindow& window, const Area& field, std::size
     return first >= 0 && count > 0 && std::int64_t{first} + count <= of;
   };
   if (!ends(window.col, window.cols, field.cols()) || !ends(window.row, window.rows, field.rows()))
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("the window of {} × {} samples at column {}, row {} is not within the live field of {} × {}",
-                    window.cols, window.rows, window.col, window.row, field.cols(), field.rows()));
+    return fail(ErrorKind::kUsage,
+                fmt::format("the window of {} columns and {} rows at column {}, row {} is not within the live field of "
+                            "{} columns and {} rows",
+                            window.cols, window.rows, window.col, window.row, field.cols(), field.rows()));
   const std::size_t count = std::size_t(window.cols) * std::size_t(window.rows);
   if (heights != count)
-    return fail(ErrorKind::kUsage, fmt::format("the window of {} × {} samples needs {} heights, not {}", window.cols,
-                                               window.rows, count, heights));
+    return fail(ErrorKind::kUsage, fmt::format("the window of {} columns and {} rows needs {} heights, not {}",
+                                               window.cols, window.rows, count, heights));
   if (tolerances == 0) return {};
   if (!has_tolerances)
     return fail(ErrorKind::kUsage, "the live field was made without tolerances: give some when it is made");
   if (tolerances == count) return {};
-  return fail(ErrorKind::kUsage, fmt::format("the window of {} × {} samples needs {} tolerances, or none, not {}",
-                                             window.cols, window.rows, count, tolerances));
+  return fail(ErrorKind::kUsage,
+              fmt::format("the window of {} columns and {} rows needs {} tolerances, or none, not {}", window.cols,
+                          window.rows, count, tolerances));
 }
 
 }  // namespace
@@ -393,6 +404,7 @@ Result<void> LiveField::update(const LiveWindow& window, std::span<const float> 
   SCARP_RETURN_IF_ERROR(
       check_window(window, impl_->area, heights.size(), tolerances.size(), impl_->tolerances.has_value()));
   SCARP_RETURN_IF_ERROR(check_tolerances(tolerances));
+  const std::lock_guard<Mutex> lock(impl_->samples);
   return impl_->update(window, heights, tolerances);
 } catch (...) {
   return caught(ErrorKind::kMemory, "update a live field");
@@ -413,6 +425,7 @@ Result<void> LiveField::scroll(int cols, int rows) try {
                               cols, rows));
   }
   if (cols == 0 && rows == 0) return {};
+  const std::lock_guard<Mutex> lock(impl_->samples);
   return impl_->scroll(cols, rows);
 } catch (...) {
   return caught(ErrorKind::kMemory, "scroll a live field");
@@ -422,7 +435,8 @@ LiveChanges LiveField::changes(std::uint64_t since) const {
   return impl_->shown.with([&](const Impl::Shown& now) {
     LiveChanges changes{now.version, {}};
     for (std::size_t slot = 0; slot < now.versions.size(); ++slot) {
-      if (now.versions[slot] > since) changes.cells.push_back(now.cells[slot]);
+      const bool is_wanted = now.versions[slot] > since && (since > 0 || !now.cells[slot]->triangles.empty());
+      if (is_wanted) changes.cells.push_back(now.cells[slot]);
     }
     return changes;
   });
@@ -455,10 +469,9 @@ std::uint64_t LiveField::triangle_count() const {
 
 std::uint32_t LiveField::slot_count() const { return impl_->lattice.slot_count(); }
 
-Result<std::vector<float>> LiveField::heights() const {
-  const Impl::Claim claim(*impl_);
-  SCARP_RETURN_IF_ERROR(claim.check());
-  std::vector<float> samples(std::size_t(cols()) * std::size_t(rows()));
+std::vector<float> LiveField::heights() const {
+  const std::lock_guard<Mutex> lock(impl_->samples);
+  std::vector<float> samples(std::size_t(impl_->area.cols()) * std::size_t(impl_->area.rows()));
   impl_->heights.read(impl_->area, impl_->area, samples.data());
   return samples;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/sort.h"
+#include "geom/exact_error.h"
 #include "metric/criterion.h"
 
 namespace scarp {
@@ -27,10 +28,30 @@ struct LockedBorder::Edge {
 
 namespace {
 
-double height_on(std::span<const float> heights, std::int32_t a, std::int32_t b, std::int32_t i) {
-  const double from = heights[static_cast<std::size_t>(a)], to = heights[static_cast<std::size_t>(b)];
-  return from + (to - from) * (static_cast<double>(i - a) / (b - a));
-}
+/// A piece of the line, between two vertices.
+class Chord {
+ public:
+  Chord(std::span<const float> heights, std::int32_t a, std::int32_t b)
+      : heights_(heights), a_(a), steps_(b - a), from_(at(a)), to_(at(b)) {}
+
+  double height_at(std::int32_t i) const {
+    return double{from_} + (double{to_} - double{from_}) * (static_cast<double>(i - a_) / steps_);
+  }
+  /// True if the sample is farther from the chord than the bound, as real numbers.
+  bool misses(std::int32_t i, double bound) const {
+    const double error = std::abs(height_at(i) - double{at(i)});
+    const double rounding = 0x1p-50 * (std::abs(double{from_}) + std::abs(double{to_}));
+    if (std::abs(error - bound) > rounding) return error > bound;
+    return exceeds_exactly_between(from_, to_, i - a_, steps_, at(i), bound);
+  }
+
+ private:
+  float at(std::int32_t i) const { return heights_[static_cast<std::size_t>(i)]; }
+
+  std::span<const float> heights_;
+  std::int32_t a_, steps_;
+  float from_, to_;
+};
 
 /// `given` plus the ends of runs of valid heights.
 std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::span<const float> heights) {
@@ -95,14 +116,14 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
     vertices_.push_back(edge.at(vertices[k]));
     if (k == 0 || !is_segment(heights, vertices[k - 1], vertices[k])) continue;
     for (std::int32_t i = vertices[k - 1] + 1; i < vertices[k]; ++i) {
-      const double line = height_on(heights, vertices[k - 1], vertices[k], i);
-      const double sample = heights[static_cast<std::size_t>(i)], error = std::abs(line - sample);
-      if (asked.vertices && error > bounds[static_cast<std::size_t>(i)])
-        return fail(ErrorKind::kUsage,
-                    fmt::format("the border's {} edge misses sample ({}, {}) by {}, more than {}", edge.name,
-                                edge.at(i).x, edge.at(i).y, error, bounds[static_cast<std::size_t>(i)]));
+      const Chord chord(heights, vertices[k - 1], vertices[k]);
+      const double bound = bounds[static_cast<std::size_t>(i)], line = chord.height_at(i);
+      const double error = std::abs(line - double{heights[static_cast<std::size_t>(i)]});
+      if (asked.vertices && chord.misses(i, bound))
+        return fail(ErrorKind::kUsage, fmt::format("the border's {} edge misses sample ({}, {}) by {}, more than {}",
+                                                   edge.name, edge.at(i).x, edge.at(i).y, error, bound));
       const auto rounded = static_cast<float>(line);
-      if (std::abs(rounded - line) >= error) continue;
+      if (std::abs(rounded - line) >= error || !chord.misses(i, 0)) continue;
       const Point p = edge.at(i);
       samples_[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(p.x)] =
           rounded;

@@ -79,7 +79,7 @@ RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
 RC_GTEST_PROP(point_lakes, have_the_percentile_of_their_shore, ()) {
   // On a slope in x the surface along the shore is known.
   PointSet points = any_land(400);
-  for (const auto [px, py] : {std::pair{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}}) {
+  for (const auto& [px, py] : {std::pair{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}}) {
     points.x.push_back(px);
     points.y.push_back(py);
     points.z.push_back(0);

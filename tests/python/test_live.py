@@ -62,6 +62,41 @@ class Live(unittest.TestCase):
         report = scarp.measure(z, live.mesh(), tolerance=bounds)
         self.assertEqual((report.over, report.max_error <= 5), (0, True))
 
+    def test_begins_without_a_height(self):
+        live = scarp.Live(np.full((50, 60), VOID), 0.5, nodata=-9999)
+        self.assertEqual((live.triangle_count, live.changes().cells), (0, []))
+        z = hills(20, 30)
+        z[3, 4] = -9999
+        live.update(slice(10, 30), slice(20, 50), z)
+        self.assertTrue(np.isnan(live.heights[13, 24]))
+        self.assertGreater(live.triangle_count, 100)
+        live.scroll(0, 60)
+        emptied = live.changes(2).cells
+        self.assertTrue(emptied and all(len(cell.triangles) == 0 for cell in emptied))
+        self.assertEqual(live.triangle_count, 0)
+
+    def test_reproduces_ramps_exactly(self):
+        row, col = np.mgrid[0:80, 0:90]
+        live, chance = scarp.Live(3.0 * col, 0, cell=16), random.Random(3)
+        for turn in range(40):
+            first, across = chance.randrange(60), chance.randrange(70)
+            live.update(slice(first, first + 20), slice(across, across + 20), 0.25 * row[:20, :20] - 3 * col[:20, :20])
+        self.assertEqual(scarp.measure(live.heights, live.mesh()).max_error, 0)
+
+    def test_heights_are_read_beside_a_writer(self):
+        live, is_done = scarp.Live(hills(100, 100), 1), threading.Event()
+
+        def read():
+            while not is_done.is_set():
+                self.assertEqual(live.heights.shape, (100, 100))
+
+        reader = threading.Thread(target=read)
+        reader.start()
+        for turn in range(100):
+            live.set(turn, turn, 5)
+        is_done.set()
+        reader.join()
+
     def test_arrays_outlive_the_field(self):
         live = scarp.Live(hills(40, 40), 1)
         cell = live.changes().cells[0]
@@ -88,8 +123,12 @@ class Live(unittest.TestCase):
         live = scarp.Live(z, 1)
         before = live.mesh()
         for error, words, call in (
-                (scarp.UsageError, "slice of neighbours", lambda: live.update(slice(0, 9, 2), 0, 1)),
-                (scarp.UsageError, "slice of neighbours", lambda: live.update(slice(60, 70), 0, 1)),
+                (scarp.UsageError, "slice with step 1", lambda: live.update(slice(0, 9, 2), 0, 1)),
+                (scarp.UsageError, "at least one of 40", lambda: live.update(slice(60, 70), 0, 1)),
+                (scarp.UsageError, "beyond what a float32 holds", lambda: live.set(0, 0, 1e39)),
+                (scarp.UsageError, "place is .row, column.", lambda: scarp.Live(z, 1, place=5)),
+                (scarp.UsageError, "fast, normal or high", lambda: scarp.Live(z, 1, effort=["fast"])),
+                (scarp.UsageError, "samples lie apart", lambda: scarp.Live(z, 1, transform=(1e15, 0.01, 0, 0, 0, 0.01))),
                 (scarp.UsageError, "not within the live field", lambda: live.update(40, 0, 1)),
                 (scarp.UsageError, "rows is -41", lambda: live.update(-41, 0, 1)),
                 (scarp.UsageError, "heights are an array of numbers", lambda: live.update(0, 0, "high")),
@@ -98,8 +137,8 @@ class Live(unittest.TestCase):
                 (scarp.UsageError, "max error of at least 0", lambda: scarp.Live(z, -1)),
                 (scarp.UsageError, "max_error is NaN", lambda: scarp.Live(z, float("nan"))),
                 (scarp.UsageError, "fast, normal or high", lambda: scarp.Live(z, 1, effort="max")),
-                (scarp.UsageError, "8 to 255 samples, not 7", lambda: scarp.Live(z, 1, cell=7)),
-                (scarp.UsageError, "tolerance has the shape", lambda: scarp.Live(z, 1, tolerance=z[1:])),
+                (scarp.UsageError, "8 to 254 samples, not 7", lambda: scarp.Live(z, 1, cell=7)),
+                (scarp.UsageError, "tolerances have the shape", lambda: scarp.Live(z, 1, tolerance=z[1:])),
                 (TypeError, "neither pickled nor copied", lambda: __import__("pickle").dumps(live))):
             with self.subTest(words), self.assertRaisesRegex(error, words):
                 call()

@@ -152,6 +152,7 @@ _FUNCTIONS = {
     "scarp_changes_version": (_U, [_P]),
     "scarp_changes_count": (_U, [_P]),
     "scarp_changes_cell": (_I, [_P, _U, _P]),
+    "scarp_changes_cut": (_I, [_P, _U, _P]),
     "scarp_changes_free": (None, [_P]),
     "scarp_tile": (_I, [_P, _P, _S, _I, _P]),
     "scarp_tile_files": (_I, [_P, _U, _P, _S, _I, _P]),

@@ -38,7 +38,7 @@ class Changes(NamedTuple):
 
 
 class _Handle:
-    """Frees the changes once no array needs them."""
+    """Frees changes, or a cell of them, once no array needs them."""
 
     def __init__(self, value: Optional[int]) -> None:
         self.value = value
@@ -51,15 +51,15 @@ class Live:
     """A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches.
 
     source      as in simplify(), but no path; copied
-    max_error   every sample is within this of the mesh, vertically, after every change
+    max_error   every sample, as float32, is within this of the mesh, vertically, after every change
     effort      "fast" (DEFAULT), "normal" or "high"
-    cell        samples along a cell, 8 to 255. DEFAULT: 32 with "fast", else 64.
-    tolerance   (rows, columns) bounds for the samples; inf: none
+    cell        steps between samples along a cell, 8 to 254. DEFAULT: 32 with "fast", else 64.
+    tolerance   (rows, columns) bounds for the samples, or one number; inf: none
     place       (row, column) of the first sample on the lattice of cells
     threads     of an update that touches several cells; never changes the mesh
 
-    Heights become float32, and the bound holds for those. NaN and infinities are voids. One thread at a time changes the
-    field, and a second one gets a UsageError; others may read meanwhile. A failed call changes nothing. Runs without
+    NaN, infinities, nodata and masked samples are voids. One thread at a time changes the field, and a second one gets a
+    UsageError; others may read meanwhile. A failed call changes nothing. Runs without
     Python's lock. After any changes the mesh has the bytes of one made from the final samples at the same place.
 
     >>> live = Live(z, 0.05)
@@ -77,16 +77,20 @@ class Live:
             raise UsageError("scarp.Live needs numpy")
         read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata, wants_array=True)
         read.field.sample_rounding = 0.0
-        if effort not in _EFFORTS:
-            raise UsageError("effort is fast, normal or high, not %s" % (effort,))
+        if not isinstance(effort, str) or effort not in _EFFORTS:
+            raise UsageError("effort is fast, normal or high, not %r" % (effort,))
         options = _abi.LiveOptions()
         _abi.lib.scarp_live_options_init(C.byref(options), C.sizeof(options))
         options.max_error = _values.bound_of("max_error", max_error)
         options.effort = _EFFORTS[effort]
         options.cell = _values.whole_of("cell", cell, 0, _LARGEST)
         options.threads = _values.whole_of("threads", threads, 0, _LARGEST)
-        options.row, options.col = (_values.whole_of("place", at, -_LARGEST, _LARGEST) for at in place)
-        bounds = None if tolerance is None else _inputs.grid_values(tolerance, read, "tolerance")
+        try:
+            row, col = place
+        except (TypeError, ValueError):
+            raise UsageError("place is (row, column), not %r" % (place,)) from None
+        options.row, options.col = (_values.whole_of("place", at, -_LARGEST, _LARGEST) for at in (row, col))
+        bounds = None if tolerance is None else self._values("tolerances", tolerance, (read.field.rows, read.field.cols))
         if bounds is not None:
             options.tolerance = bounds.ctypes.data
         self._has_tolerance = bounds is not None
@@ -149,30 +153,35 @@ class Live:
 
     def _window(self, name: str, window: Any, size: int) -> tuple[int, int]:
         if isinstance(window, slice):
-            first, end, step = window.indices(size)
+            try:
+                first, end, step = window.indices(size)
+            except TypeError:
+                first, end, step = 0, 0, 1
             if step != 1 or end <= first:
-                raise UsageError("%s is a slice of neighbours, not %s" % (name, window))
+                raise UsageError("%s is a slice with step 1 of at least one of %d, not %s" % (name, size, window))
             return first, end - first
         first = _values.whole_of(name, window, -size, size)
         return (first + size if first < 0 else first), 1
 
     def _values(self, name: str, given: Any, shape: tuple[int, int]) -> Any:
         import numpy as np
-        if isinstance(given, np.ma.MaskedArray):
-            given = given.astype(np.float32).filled(np.nan)
         try:
+            if isinstance(given, np.ma.MaskedArray):
+                given = given.astype(np.float64).filled(np.nan if name == "heights" else np.inf)
             array = np.asarray(given)
             if array.dtype.kind not in "iuf":
                 raise ValueError
             with np.errstate(over="ignore"):
-                array = np.asarray(array, dtype=np.float32, order="C")
+                rounded = np.asarray(array, dtype=np.float32, order="C")
         except (TypeError, ValueError):
             raise UsageError("%s are an array of numbers" % name) from None
-        if array.ndim == 0:
-            return np.full(shape, array)
-        if [n for n in array.shape if n != 1] != [n for n in shape if n != 1]:
-            raise UsageError("%s have the shape %s, and the window has %s" % (name, array.shape, shape))
-        return array
+        if not np.array_equal(np.isinf(rounded), np.isinf(array)):
+            raise UsageError("%s beyond what a float32 holds (3.4e38): give them in a larger unit" % name)
+        if rounded.ndim == 0:
+            return np.full(shape, rounded)
+        if rounded.shape != shape and not (1 in shape and rounded.shape == (max(shape),)):
+            raise UsageError("%s have the shape %s, and the window has %s" % (name, rounded.shape, shape))
+        return rounded
 
     def update(self, rows: Any, cols: Any, heights: Any, tolerance: Any = None) -> None:
         """Replaces the samples of a window: `rows` and `cols` are slices, or numbers of one row or column.
@@ -195,17 +204,20 @@ class Live:
                               _values.whole_of("rows", rows, -_LARGEST, _LARGEST)))
 
     def changes(self, since: int = 0) -> Changes:
-        """The cells that changed after the version `since` (0: all), those that became empty included."""
+        """The cells that changed after the version `since`, those that became empty included; after 0 all that have a
+        surface. A cell replaces the one that its slot had."""
         out = C.c_void_p()
         _abi.check(self._call(_abi.lib.scarp_live_changes, _values.whole_of("since", since, 0, 2**63), C.byref(out)))
         handle, cells = _Handle(out.value), []
         for k in range(_abi.lib.scarp_changes_count(handle.value)):
-            cell = _abi.LiveCell()
+            one, cell = C.c_void_p(), _abi.LiveCell()
             cell.struct_size = C.sizeof(cell)
-            _abi.check(_abi.lib.scarp_changes_cell(handle.value, k, C.byref(cell)))
+            _abi.check(_abi.lib.scarp_changes_cut(handle.value, k, C.byref(one)))
+            owner = _Handle(one.value)
+            _abi.check(_abi.lib.scarp_changes_cell(owner.value, 0, C.byref(cell)))
             cells.append(Cell(cell.slot, cell.version, cell.row, cell.col, cell.max_error,
-                              memory_of(handle, cell.positions, (cell.vertices, 3), "<f4"),
-                              memory_of(handle, cell.indices, (cell.triangles, 3), "<u2")))
+                              memory_of(owner, cell.positions, (cell.vertices, 3), "<f4"),
+                              memory_of(owner, cell.indices, (cell.triangles, 3), "<u2")))
         return Changes(_abi.lib.scarp_changes_version(handle.value), cells)
 
     def mesh(self) -> Mesh:
