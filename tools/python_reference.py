@@ -12,7 +12,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 package = root / "bindings" / "python" / "src" / "scarp"
 # Public names by module.
 PUBLIC = [("__init__", ["simplify", "simplify_points", "measure", "volume"]), ("mesh", ["read_mesh", "Mesh", "Report", "Volumes"]),
-          ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
+          ("live", ["Live", "Cell", "Changes"]), ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",
                       "InternalError", "ScarpWarning"]),
           ("compat/pydelatin/__init__", ["Delatin"]),

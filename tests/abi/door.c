@@ -573,7 +573,7 @@ static void try_points(void) {
     const double* origin = scarp_mesh_origin(finer);
     uint64_t v = 0;
     const uint64_t count = scarp_mesh_vertex_count(finer);
-    const float* at = scarp_mesh_positions(finer);
+    const double* at = scarp_mesh_positions(finer);
     while (v < count &&
            (fabs(origin[0] + at[3 * v] - xyz[3 * k]) > 1e-4 || fabs(origin[1] + at[3 * v + 1] - xyz[3 * k + 1]) > 1e-4))
       ++v;

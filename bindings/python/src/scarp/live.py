@@ -167,7 +167,8 @@ class Live:
         import numpy as np
         try:
             if isinstance(given, np.ma.MaskedArray):
-                given = given.astype(np.float64).filled(np.nan if name == "heights" else np.inf)
+                masked: Any = given.astype(np.float64)
+                given = masked.filled(np.nan if name == "heights" else np.inf)
             array = np.asarray(given)
             if array.dtype.kind not in "iuf":
                 raise ValueError
