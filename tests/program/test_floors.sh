@@ -15,17 +15,14 @@ done < <("$python" "$check" --table)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# expect_fault FILE LINE WORDS: a copy of the tree with LINE added to FILE is refused with WORDS.
+mkdir "$scratch/tree"
+cp -r "$source_tree/include" "$source_tree/src" "$source_tree/apps" "$scratch/tree"
+planted=()
+# expect_fault FILE LINE WORDS: the check of a copy of the tree with LINE added to FILE, and with all other such lines,
+# names FILE with WORDS.
 expect_fault() {
-  rm -rf "$scratch/tree"
-  mkdir "$scratch/tree"
-  cp -r "$source_tree/include" "$source_tree/src" "$source_tree/apps" "$scratch/tree"
   printf '%b\n' "$2" >>"$scratch/tree/$1"
-  if "$python" "$check" "$scratch/tree" >"$scratch/out"; then
-    echo "not noticed: $2 in $1"
-    exit 1
-  fi
-  grep -F -- "$1" "$scratch/out" | grep -qF -- "$3" || { echo "wrong sentence for $2 in $1:"; cat "$scratch/out"; exit 1; }
+  planted+=("$1" "$2" "$3")
 }
 
 expect_fault src/tin/triangulation.h '#include "refine/refinement.h"' 'a step upwards from tin (floor 2) to refine (floor 3)'
@@ -53,6 +50,14 @@ expect_fault src/geom/scan.h '#include <immintrin.h>' 'instruction set'
 expect_fault src/io/mesh/stl.cpp '#include "io/no_such.h"' 'there is no src/io/no_such.h'
 expect_fault src/simplify/run.cpp 'bool fits = options.quality.effort != Effort::kFast;' 'decided in the recipe of a run'
 expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
+if "$python" "$check" "$scratch/tree" >"$scratch/out"; then
+  echo "no planted line is noticed"
+  exit 1
+fi
+for ((k = 0; k < ${#planted[@]}; k += 3)); do
+  grep -F -- "${planted[k]}" "$scratch/out" | grep -qF -- "${planted[k + 2]}" ||
+    { echo "not noticed: ${planted[k + 1]} in ${planted[k]}"; cat "$scratch/out"; exit 1; }
+done
 mkdir -p "$scratch/empty"
 if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi
 # expect_missing FILE INCLUDE WORDS: a copy of the tree without the line INCLUDE in FILE is refused with WORDS.
