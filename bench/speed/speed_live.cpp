@@ -1,18 +1,23 @@
 // Times the updates of live fields, on one thread, by effort and cell size, against one simplify() of the whole field.
 //
 //   speed_live [RASTER COLS ROWS] [--error E] [--window N] [--updates N] [--effort E] [--cells N...]
+//   speed_live --readers N [--error E] [--window N] [--updates N]
 //
 // Without a raster: an elevation map of 500 × 500 cells of 5 cm, boxes on a floor with 5 mm of noise, and holes; errors
 // of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's own, with fresh noise of a
 // quarter of the error. CSV: milliseconds of CPU time of an update (mean, 99th percentile, worst), of simplify() on the
-// whole, and triangles of both.
+// whole, and triangles of both. With --readers: updates a second (wall clock) at fast effort while N other threads ask
+// for the changes every millisecond, and the slowest.
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "field.h"
@@ -48,6 +53,43 @@ struct Bench {
   double error;
   int window, updates;
 
+  /// Calls note(times) after each update.
+  template <class Note>
+  void update(scarp::LiveField& live, const Note& note) const {
+    std::mt19937 random(1);
+    for (int k = 0; k < updates; ++k) {
+      const int col = static_cast<int>(random() % static_cast<unsigned>(raster.cols - window + 1));
+      const int row = static_cast<int>(random() % static_cast<unsigned>(raster.rows - window + 1));
+      bench::RawRaster part = bench::window_of(raster, col, row, window, window);
+      for (float& z : part.samples)
+        z += static_cast<float>(error * (static_cast<double>(random()) / 4294967296.0 - 0.5) / 4);
+      const bench::Stopwatch watch;
+      const auto updated = live.update({col, row, window, window}, part.samples);
+      note(watch.read());
+      if (!updated) bench::die(updated.error().message);
+    }
+  }
+
+  void run_with_readers(int count) const {
+    scarp::LiveField live = bench::check(scarp::LiveField::create(bench::field_of(raster), {error}));
+    std::atomic<bool> is_done = false;
+    std::vector<std::thread> readers;
+    for (int k = 0; k < count; ++k) {
+      readers.emplace_back([&] {
+        for (std::uint64_t version = 0; !is_done; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+          version = live.changes(version).version;
+      });
+    }
+    double sum = 0, worst = 0;
+    update(live, [&](const bench::Times& times) {
+      sum += times.wall;
+      worst = std::max(worst, times.wall);
+    });
+    is_done = true;
+    for (std::thread& reader : readers) reader.join();
+    std::printf("readers,updates_per_second,worst_ms\n%d,%.0f,%.2f\n", count, updates / sum, 1e3 * worst);
+  }
+
   void run(const std::string& effort, int cell) const {
     const scarp::HeightField field = bench::field_of(raster);
     scarp::SimplifyOptions whole;
@@ -60,19 +102,8 @@ struct Bench {
     scarp::LiveField live =
         bench::check(scarp::LiveField::create(field, {error, bench::effort_of(effort), cell, 1, {}}));
     const std::uint64_t triangles = live.triangle_count();
-    std::mt19937 random(1);
     std::vector<double> milliseconds;
-    for (int k = 0; k < updates; ++k) {
-      const int col = static_cast<int>(random() % static_cast<unsigned>(raster.cols - window + 1));
-      const int row = static_cast<int>(random() % static_cast<unsigned>(raster.rows - window + 1));
-      bench::RawRaster part = bench::window_of(raster, col, row, window, window);
-      for (float& z : part.samples)
-        z += static_cast<float>(error * (static_cast<double>(random()) / 4294967296.0 - 0.5) / 4);
-      const bench::Stopwatch watch;
-      const auto updated = live.update({col, row, window, window}, part.samples);
-      milliseconds.push_back(1e3 * watch.read().cpu());
-      if (!updated) bench::die(updated.error().message);
-    }
+    update(live, [&](const bench::Times& times) { milliseconds.push_back(1e3 * times.cpu()); });
     std::sort(milliseconds.begin(), milliseconds.end());
     double sum = 0;
     for (const double one : milliseconds) sum += one;
@@ -88,13 +119,17 @@ struct Bench {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bench::Arguments arguments(
-      argc, argv,
-      "speed_live [RASTER] [COLS] [ROWS] [--error E] [--window N] [--updates N] [--effort E] [--cells N...]");
+  const bench::Arguments arguments(argc, argv,
+                                   "speed_live [RASTER] [COLS] [ROWS] [--readers N] [--error E] [--window N] "
+                                   "[--updates N] [--effort E] [--cells N...]");
   const bool has_raster = arguments.count() == 3;
   const bench::RawRaster raster = has_raster ? bench::read_raw(arguments) : make_map(3);
   const double error = arguments.number("--error", 0.02);
   const Bench bench{raster, error, arguments.number("--window", 50), arguments.number("--updates", 500)};
+  if (arguments.has("--readers")) {
+    bench.run_with_readers(arguments.number("--readers", 0));
+    return 0;
+  }
   std::vector<int> cells;
   for (const std::string& cell : arguments.values("--cells")) cells.push_back(std::stoi(cell));
   if (cells.empty()) cells = {32, 48, 64, 96, 128};
