@@ -91,8 +91,8 @@ struct LiveChanges {
 /// then unchanged.
 ///
 /// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
-/// cell's size); independent of the size of the field, except for reading its list of cells: some 1 ns a cell. That of
-/// scroll(): the cells along the field's border.
+/// cell's size); independent of the size of the field. That of scroll(): the cells along the field's border. That of
+/// changes(): O(cells of the field).
 /// Memory: 4 bytes a sample (8 with tolerances), and the cells' meshes.
 class LiveField {
  public:
@@ -104,7 +104,7 @@ class LiveField {
   ~LiveField();
 
   /// Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay).
-  /// Equal samples cost nothing.
+  /// Equal samples make no cell anew.
   Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {});
   /// Replaces one sample.
   Result<void> set(int col, int row, float height);

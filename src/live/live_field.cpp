@@ -171,10 +171,7 @@ struct LiveField::Impl {
       else
         errors[k] = std::move(cell.error());
     };
-    if (dirty.size() == 1)
-      make(0);
-    else
-      parallel_for(dirty.size(), options.threads, make);
+    parallel_for(dirty.size(), options.threads, make);
     for (std::optional<Error>& error : errors) {
       if (error) return tl::unexpected(std::move(*error));
     }

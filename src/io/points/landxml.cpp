@@ -49,6 +49,10 @@ std::string warn_of_unknown_crs(const LandXmlHead& head, const std::string& path
   return fmt::format("{}: its CRS, {}, is unknown here: x and y count as having none", path, head.crs.substr(0, 60));
 }
 
+std::string at_line(const XmlReader& xml, const std::string& why) {
+  return why.empty() ? why : fmt::format("line {}: {}", xml.line(), why);
+}
+
 std::string read_numbers(const std::string& text, std::vector<double>& numbers) {
   numbers.clear();
   TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});

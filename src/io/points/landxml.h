@@ -31,6 +31,9 @@ struct LandXmlHead {
 /// A warning that the CRS is unknown here.
 std::string warn_of_unknown_crs(const LandXmlHead& head, const std::string& path);
 
+/// The complaint, with the line of the file; an empty one stays empty.
+std::string at_line(const XmlReader& xml, const std::string& why);
+
 /// Replaces `numbers` by those of the text. Returns a complaint, or an empty string.
 std::string read_numbers(const std::string& text, std::vector<double>& numbers);
 

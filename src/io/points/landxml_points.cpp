@@ -59,12 +59,8 @@ class Reader {
     const auto add_text = [this] {
       if (!reading_.empty()) text_ += xml_.text();
     };
-    const auto end = [this] {
-      const std::string why = end_element();
-      return why.empty() ? why : fmt::format("line {}: {}", xml_.line(), why);
-    };
     return read_events(
-        xml_, [this] { begin_element(); }, add_text, end);
+        xml_, [this] { begin_element(); }, add_text, [this] { return at_line(xml_, end_element()); });
   }
 
  private:

@@ -39,8 +39,7 @@ __version__: str = _abi.lib.scarp_version().decode()
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
 __all__ = ["simplify", "simplify_points", "measure", "volume", "read_mesh", "Mesh", "Report", "Volumes", "Refiner", "Live", "Cell",
-           "Changes", "Tiles", "tile",
-           "Progress", "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
+           "Changes", "Tiles", "tile", "Progress", "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
            "ScarpWarning", "has_gdal", "__version__"]
 
 
@@ -158,8 +157,8 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     points with that height, and those without a finite height, are omitted. `crs` and `frame`: as in simplify();
     degrees become metres from the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, with
     edges at most 50 long where the points allow it. Of a LAS or LAZ file, `class_="ground,water"` and `returns="last"`
-    choose points. `tolerance`:
-    (N,) bounds for the points, besides max_error, at least 0; infinity: none. Or the file of a raster.
+    choose points. `tolerance`: (N,) bounds for the points, besides max_error, at least 0; infinity: none. Or the file
+    of a raster.
     """
     out = C.c_void_p()
     lib = _abi.lib
@@ -249,9 +248,9 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
 
     `source` and its position: as in simplify(), or points as in simplify_points(). An array is points with a mesh of
     points, and if its shape is (N, 3), unless the mesh was made from an array of that shape. With transform, nodata,
-    mask or tolerance of two dimensions it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or (N, 3) vertices with
-    (M, 3) triangles. `fail_above=1.5` raises PromiseError if the error of a sample is larger. Other options as those of
-    `scarp measure`: `cutline`, `script` ... Returns a Report.
+    mask or tolerance of two dimensions it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or
+    (N, 3) vertices with (M, 3) triangles. `fail_above=1.5` raises PromiseError if the error of a sample is larger. Other
+    options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:
         mesh = Mesh.from_arrays(mesh, triangles)
