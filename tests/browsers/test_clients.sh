@@ -2,7 +2,7 @@
 # CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, a
 # plain tileset, and one with an image; no sky below the horizon. SCARP_SHOTS=FOLDER keeps the pictures.
 source "$(dirname "$0")/../program/lib.sh"
-need python3 gdal_translate node chromium
+need python3 gdal_translate node "$browser"
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
 shots=${SCARP_SHOTS:-$scratch/shots}
 mkdir -p site "$shots"
@@ -202,6 +202,6 @@ python3 judge.py jobs > jobs.json
 server=$!
 trap 'kill $server; rm -rf "$root"' EXIT
 await $server test -s address
-succeeds node "$js/clients.mjs" "$(cat address)" jobs.json "$shots" "$(command -v chromium)"
+succeeds node "$js/clients.mjs" "$(cat address)" jobs.json "$shots" "$browser"
 cp "$logs/out" answers.json
 python3 judge.py

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The page of make globe in a browser: heights in CesiumJS are within the bounds of three levels.
 source "$(dirname "$0")/../program/lib.sh"
-need python3 gdal_translate node chromium
+need python3 gdal_translate node "$browser"
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
 
 # Samples on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
@@ -26,7 +26,7 @@ E2
 server=$!
 trap 'kill $server; rm -rf "$root"' EXIT
 await $server test -s address
-succeeds node "$js/globe.mjs" "$(cat address)" points.json shot.png "$(command -v chromium)"
+succeeds node "$js/globe.mjs" "$(cat address)" points.json shot.png "$browser"
 cp "$logs/out" judged.json
 python3 - << 'E2'
 import json

@@ -2,7 +2,7 @@
 # The unchanged page of docs/guide/globe.md in a browser, with tiles from scarp serve; its lines for 3D Tiles and nginx,
 # and the three.js lines of globe.md and games.md.
 source "$(dirname "$0")/../program/lib.sh"
-need python3 gdallocationinfo node chromium
+need python3 gdallocationinfo node "$browser"
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
 shots=${SCARP_SHOTS:-$scratch/shots}
 mkdir -p "$shots"
@@ -37,7 +37,7 @@ sed -e '/^  window.viewer = viewer;/{r lines
 N}' globe/page.html > globe/city.html
 grep -q Cesium3DTileset globe/city.html || fail "the page has no place for the lines of 3D Tiles"
 serve folder "$scarp" serve globe --port 0
-succeeds node "$js/guide.mjs" -84.25,36.3 "$shots" "$(command -v chromium)" "$(address_of folder)page.html" "$(address_of folder)city.html"
+succeeds node "$js/guide.mjs" -84.25,36.3 "$shots" "$browser" "$(address_of folder)page.html" "$(address_of folder)city.html"
 cp "$logs/out" answers.json
 # The sea lies 31 m below the ellipsoid here.
 wanted=$(gdallocationinfo -valonly -wgs84 "$dem" -84.25 36.3)
@@ -82,7 +82,7 @@ done
 cp three/games.* packed/
 serve scenes "$python_program" "$SCARP_SOURCE/tools/globe/serve.py" . 0
 at=$(address_of scenes)
-succeeds node "$js/guide_three.mjs" "$shots" "$(command -v chromium)" "${at}three/games.html" "${at}packed/games.html" "${at}three/tiles.html"
+succeeds node "$js/guide_three.mjs" "$shots" "$browser" "${at}three/games.html" "${at}packed/games.html" "${at}three/tiles.html"
 cp "$logs/out" scenes.json
 python3 - << 'E2'
 import json

@@ -173,7 +173,7 @@ else
   echo "left out: live meshes in the page (make npm builds their engine)"
 fi
 
-need chromium
+need "$browser"
 npm_judges playwright-core axe-core || skip "npm could not fetch playwright-core and axe-core"
 for name in plain packed; do
   succeeds "$scarp" measure "$dem" $name.glb --json
@@ -219,6 +219,6 @@ open("image_elsewhere.glb", "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + 
 E2
 
 python3 "$SCARP_SOURCE/tests/browsers/view_pages.py" jobs > jobs.json
-succeeds node "$js/viewer.mjs" jobs.json "$shots" "$(command -v chromium)"
+succeeds node "$js/viewer.mjs" jobs.json "$shots" "$browser"
 cp "$logs/out" answers.json
 python3 "$SCARP_SOURCE/tests/browsers/view_pages.py"

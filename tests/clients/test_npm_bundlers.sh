@@ -25,7 +25,7 @@ if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vit
   for bundler in esbuild inline vite webpack; do succeeds node bundle.mjs "$bundler"; done
   bundles=(esbuild/index.html file:inline/index.html vite/vite.html dev:vite.html webpack/index.html)
 fi
-if command -v chromium > /dev/null && npm_judges playwright-core; then
+if command -v "$browser" > /dev/null && npm_judges playwright-core; then
   cp "$js/browser.mjs" open_page.mjs
   [ -e node_modules/playwright-core ] || ln -s "$js/node_modules/playwright-core" node_modules/
   # The blocks of bindings/wasm/README.md.
@@ -33,19 +33,19 @@ if command -v chromium > /dev/null && npm_judges playwright-core; then
   if npm_judges three esbuild && "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > viewer.log 2>&1; then
     "$js/node_modules/.bin/esbuild" "$SCARP_BUILD/viewer/node_modules/geotiff/dist-module/geotiff.js" --bundle --format=esm --log-level=error --outfile=geotiff.js
     cp -L "$data/examples/tile.png" "$data/examples/dem.tif" .
-    succeeds node readme.mjs "$(command -v chromium)" "$readme"
+    succeeds node readme.mjs "$browser" "$readme"
     cat "$logs/out"
     mkdir by_readme
     (cd by_readme && ln -s ../node_modules . && echo 'import { simplify } from "scarp"; console.log(simplify);' > app.js &&
       PATH=$js/node_modules/.bin:$PATH succeeds bash -ec "$(python3 "$SCARP_SOURCE/tools/guide_blocks.py" "$readme" sh)" && ls dist/scarp.wasm dist/app.js > /dev/null) ||
       fail "the lines for esbuild"
   fi
-  succeeds node browser.mjs "$(command -v chromium)" "$told" "${bundles[@]}"
+  succeeds node browser.mjs "$browser" "$told" "${bundles[@]}"
   cat "$logs/out"
   if npm_judges @deck.gl/geo-layers @loaders.gl/terrain esbuild; then
     shots=${SCARP_SHOTS:-$scratch/shots}
     mkdir -p "$shots"
-    succeeds node deck_browser.mjs "$(command -v chromium)" "$shots"
+    succeeds node deck_browser.mjs "$browser" "$shots"
     echo "deck.gl: $(grep -o '"drawn"' "$logs/out" | wc -l) pictures"
   fi
 else

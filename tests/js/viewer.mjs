@@ -2,8 +2,9 @@
 //
 // JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`:
 // allowed requests besides the page. `before` runs in the page before its script; each step is {drop: [{name, path}],
-// do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one answer a job:
-// the values of `do` and `read`, console errors, requests to other addresses, and axe-core's objections.
+// do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}; shots only with SCARP_SHOTS.
+// Prints JSON, one answer a job: the values of `do` and `read`, console errors, requests to other addresses, and
+// axe-core's objections.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { pathToFileURL } from 'node:url';
@@ -51,7 +52,7 @@ async function doJob(job) {
       for (const at of step.clicks ?? []) await page.mouse.click(...at);
       if (step.until) await waitFor(page, step.until);
       if (step.read) values.push(await page.evaluate(step.read));
-      if (step.shot) await page.screenshot({ path: `${shots}/${step.shot}.png` });
+      if (step.shot && process.env.SCARP_SHOTS) await page.screenshot({ path: `${shots}/${step.shot}.png` });
       if (step.after) await page.evaluate(step.after);
     }
     let violations = [];

@@ -6,13 +6,18 @@
 set -euo pipefail
 scarp=$SCARP_BUILD/bin/scarp
 
-# The script starts again as the command of a server, which has the program loaded (../start_once/). Without the server,
-# or with SCARP_STARTED=no, each run loads the program.
+# The script starts again as the command of servers, which have the program loaded, and gdal_translate where the script
+# needs it (../start_once/). Without the server, or with SCARP_STARTED=no, each run loads its program.
 server=$SCARP_BUILD/tests/libscarp_start_once.so
 if [ "${SCARP_STARTED-}" != "$scarp" ] && [ "${SCARP_STARTED-}" != no ] && [ -e "$server" ]; then
   export SCARP_STARTED=$scarp SCARP_START_ONCE=$(mktemp -u) SCARP_CLIENT=$SCARP_BUILD/tests/scarp_start_once_client
-  LD_PRELOAD=$server exec "$scarp" bash "$0" "$@"
+  if grep -q gdal_translate "$0" && SCARP_GDAL_TRANSLATE=$(command -v gdal_translate); then
+    export SCARP_GDAL_TRANSLATE
+    LD_BIND_NOW=1 LD_PRELOAD=$server exec "$scarp" env LD_PRELOAD="$server" "$SCARP_GDAL_TRANSLATE" bash "$0" "$@"
+  fi
+  LD_BIND_NOW=1 LD_PRELOAD=$server exec "$scarp" bash "$0" "$@"
 fi
+if [ -n "${SCARP_GDAL_TRANSLATE-}" ]; then gdal_translate() { "$SCARP_CLIENT" "$SCARP_GDAL_TRANSLATE" "$@"; }; fi
 
 # once PROGRAM ARGUMENT...: runs it without loading it, if it is the server's.
 once() {
@@ -33,6 +38,9 @@ cd "$root/run"
 # to start than most programs here to run. With packages: $python_program.
 python_program=$(command -pv python3 || command -v python3 || true)
 if [ -n "$python_program" ]; then python3() { "$python_program" -S "$@"; }; fi
+
+# Headless, with half the CPU time of a whole browser; else that.
+browser=$(command -v chromium-headless-shell || command -v chromium || echo chromium-headless-shell)
 
 fail() {
   echo "FAILED: $*" >&2
@@ -122,39 +130,28 @@ sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were t
 }
 within() { succeeds run_within "$@"; }
 
-# files_here: every file with its checksum, and every folder.
-files_here() { find . -type f -exec cksum {} +; find . ! -type f; }
+# files_here: every file with its size, times and number, and every folder.
+files_here() { find . -type d -printf '%p\n' -o -printf '%p %s %T@ %C@ %i\n'; }
 
 # refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr that begins with "scarp: " and contains
 # WORDS, nothing on stdout, and no file added, removed or changed.
 refuses() {
-  local want=$1 words=$2 before after
+  local want=$1 words=$2 before after lines
   shift 2
   before=$(files_here)
   try "$@"
   after=$(files_here)
   [ "$code" = "$want" ] || fail "exit code $code instead of $want: $*"
-  [ "$(wc -l < "$logs/err")" = 1 ] || fail "not exactly one line on stderr: $*"
-  grep -q '^scarp: [^ ]' "$logs/err" || fail "the line does not begin with 'scarp: ': $*"
-  grep -qF -- "$words" "$logs/err" || fail "the line does not hold '$words': $*"
+  mapfile lines < "$logs/err"
+  [[ ${#lines[@]} = 1 && $lines == *$'\n' ]] || fail "not exactly one line on stderr: $*"
+  [[ $lines == 'scarp: '[^\ ]* ]] || fail "the line does not begin with 'scarp: ': $*"
+  [[ $lines == *"$words"* ]] || fail "the line does not hold '$words': $*"
   [ ! -s "$logs/out" ] || fail "something on stdout: $*"
   [ "$before" = "$after" ] || fail "files have changed: $*"
 }
 
-# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails if a key is missing. Reads JSON as
-# a Python expression with three more names, since importing its module is as slow as starting the interpreter.
-json() {
-  python3 -I - "$@" <<'PYTHON'
-import sys
-value = eval(open(sys.argv[1], encoding="utf-8").read(), {"null": None, "true": True, "false": False})
-for key in sys.argv[2:]:
-    value = value[int(key)] if isinstance(value, list) else value[key]
-if type(value) not in (int, float):
-    import json
-    value = json.dumps(value)
-print(value)
-PYTHON
-}
+# json FILE KEY...: the value in a JSON file ("5.0", "\"x\"", "null"); fails if a key is missing.
+json() { "$SCARP_BUILD/tests/scarp_json_value" "$@"; }
 
 # agree A B KEY...: two JSON files have the same values; words of a key name nested ones ("cutline samples_outside").
 agree() {

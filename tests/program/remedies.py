@@ -31,7 +31,10 @@ class Fault(Exception):
 
 def shell(command, folder):
     path = f"PATH={shlex.quote(str(scarp.parent))}:{shlex.quote(str(pathlib.Path(sys.executable).parent))}:$PATH; "
-    done = subprocess.run(["timeout", "600", "bash", "-c", path + command], cwd=folder, capture_output=True, text=True, errors="replace")
+    # By the servers of lib.sh.
+    once = "".join(f'{name}() {{ "$SCARP_CLIENT" {shlex.quote(str(program))} "$@"; }}; ' for name, program in
+                   (("scarp", scarp), ("gdal_translate", os.environ.get("SCARP_GDAL_TRANSLATE"))) if program and "SCARP_CLIENT" in os.environ)
+    done = subprocess.run(["timeout", "600", "bash", "-c", path + once + command], cwd=folder, capture_output=True, text=True, errors="replace")
     printed.append(done.stdout + done.stderr)
     return done.returncode, (done.stdout + done.stderr).replace("scarp: warning: ", "")
 

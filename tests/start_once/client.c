@@ -25,10 +25,9 @@ static void forward(int signal) {
   errno = before;
 }
 
-static int connect_to(const char* path) {
+static int connect_to(const char* program) {
   struct sockaddr_un address = {.sun_family = AF_UNIX};
-  if (path == NULL || strlen(path) >= sizeof address.sun_path) return -1;
-  strcpy(address.sun_path, path);
+  if (!name_socket(program, address.sun_path, sizeof address.sun_path)) return -1;
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   return made >= 0 && connect(made, (struct sockaddr*)&address, sizeof address) == 0 ? made : -1;
 }
@@ -83,7 +82,7 @@ static void send_request(struct Request* request, const int* files, const char* 
 
 int main(int argc, char** argv) {
   if (argc < 2) return 125;
-  server = connect_to(getenv(SCARP_SOCKET));
+  server = connect_to(argv[1]);
   if (server < 0) {
     execv(argv[1], argv + 1);
     return 127;

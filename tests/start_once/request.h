@@ -3,10 +3,19 @@
 #pragma once
 
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 
-// The variable of the environment with the path of the server's socket.
-#define SCARP_SOCKET "SCARP_START_ONCE"
+// The path of a program's socket: the variable SCARP_START_ONCE, a dot, and the program's file name. 0 without one.
+static inline int name_socket(const char* program, char* path, size_t size) {
+  const char* before = getenv("SCARP_START_ONCE");
+  const char* slash = strrchr(program, '/');
+  if (before == NULL) return 0;
+  const int length = snprintf(path, size, "%s.%s", before, slash != NULL ? slash + 1 : program);
+  return length > 0 && (size_t)length < size;
+}
 
 enum { kMostFiles = 250, kLimits = 16 };
 
