@@ -69,6 +69,7 @@ ROOMS = {
 # Headers of rooms that the session and the program may include like public ones: documented alike, but not installed
 # and without promises.
 SHOWN = [
+    "base/after_allocation.h",
     "base/alike.h",
     "check/level_meshes.h",
     "grid/generate.h",

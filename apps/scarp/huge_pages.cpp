@@ -1,5 +1,7 @@
-// The program's memory: large blocks on huge pages, where the system grants them on request. With pages of
-// 4 kB, page faults cost a quarter to a half of a run's time (bench/performance.md).
+// The program's memory: blocks on huge pages, where the system grants them on request, and a heap that keeps freed
+// memory for the next block. With pages of 4 kB, and a system that zeroes them for each block anew, page faults cost a
+// quarter to a half of a run's time (bench/performance.md).
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -7,26 +9,39 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/after_allocation.h"
+
 #ifdef MADV_HUGEPAGE
 
 namespace {
 
-constexpr std::size_t kLeast = std::size_t{4} << 20;  // smaller blocks come from the heap, which keeps its pages
+constexpr std::size_t kLeast = std::size_t{128} << 10;
+constexpr std::size_t kLargestInHeap = std::size_t{32} << 20;  // the C library's limit
 constexpr std::uintptr_t kPage = std::uintptr_t{2} << 20;
 
-/// A refusal costs speed alone.
+/// A refusal costs speed alone. A small block shares its first and last page with other blocks.
 void request_huge_pages(void* block, std::size_t size) {
-  const auto begin = reinterpret_cast<std::uintptr_t>(block);
-  const std::uintptr_t first = (begin + kPage - 1) / kPage * kPage, last = (begin + size) / kPage * kPage;
+  if (size < kLeast) return;
+  const auto begin = reinterpret_cast<std::uintptr_t>(block), end = begin + size;
+  const std::uintptr_t slack = size < 2 * kPage ? 0 : kPage - 1;
+  const std::uintptr_t first = (begin + slack) / kPage * kPage, last = (end + kPage - 1 - slack) / kPage * kPage;
   if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 }
 
+[[maybe_unused]] const bool is_set = [] {
+  mallopt(M_MMAP_THRESHOLD, static_cast<int>(kLargestInHeap));
+  mallopt(M_TRIM_THRESHOLD, static_cast<int>(2 * kLargestInHeap));
+  mallopt(M_TOP_PAD, static_cast<int>(2 * kPage));
+  scarp::after_allocation = request_huge_pages;
+  return true;
+}();
+
 }  // namespace
 
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   for (;;) {
     if (void* const block = std::malloc(size > 0 ? size : 1)) {
-      if (size >= kLeast) request_huge_pages(block, size);
+      request_huge_pages(block, size);
       return block;
     }
     const std::new_handler handler = std::get_new_handler();
@@ -35,7 +50,7 @@ void* operator new(std::size_t size) {
   }
 }
 
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 #endif

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/after_allocation.h"
 #include "base/blocks.h"
 
 namespace scarp {
@@ -76,6 +77,7 @@ class Array {
     }
     void* moved = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
     if (moved == nullptr) throw std::bad_alloc();
+    if (after_allocation != nullptr) after_allocation(moved, capacity * sizeof(T));
     data_ = static_cast<T*>(moved);
     capacity_ = capacity;
   }

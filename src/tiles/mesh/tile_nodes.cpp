@@ -2,15 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace scarp {
-namespace {
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-}  // namespace
 
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps) {
   const NodeWindow window = grid.window_of(id, steps);
@@ -27,52 +21,50 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   nodes.land_ = land_of(plan.grid, id, steps);
   const NodeWindow window = plan.grid.window_of(id, steps, halo);
   const std::int64_t first_row = plan.grid.window_of(id, steps).row - halo;
-  const std::int32_t side = nodes.side();
-  const std::int64_t from = window.row, to = window.row + window.rows - 1;
-  nodes.heights_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), kUnknown);
+  const auto cols = static_cast<std::size_t>(window.cols);
+  nodes.heights_.assign(cols * cols, plan.background);
   const auto row_of = [&](std::int64_t row) {
-    return nodes.heights_.begin() + static_cast<std::ptrdiff_t>((row - first_row) * side);
+    return nodes.heights_.begin() + static_cast<std::ptrdiff_t>(row - first_row) * window.cols;
   };
+  // Most nodes of a raster smaller than the tile lie beyond its land.
   const NodeWindow land = source.land(window);
   const std::size_t count = static_cast<std::size_t>(land.cols) * static_cast<std::size_t>(land.rows);
-  std::vector<float> part(land.cols < side ? count : 0);
-  const std::span<float> out = land.cols < side ? std::span(part) : std::span(&*row_of(land.row), count);
+  std::vector<float> part(land.cols < window.cols ? count : 0);
+  const std::span<float> out = land.cols < window.cols ? std::span(part) : std::span(&*row_of(land.row), count);
   SCARP_RETURN_IF_ERROR(count > 0 ? source.read(land, out) : Result<void>());
+  const auto left = static_cast<std::int32_t>(land.col - window.col) - halo,
+             top = static_cast<std::int32_t>(land.row - first_row) - halo;
+  nodes.note_voids(out, {left, top, land.cols, land.rows}, plan.background);
   for (std::int32_t j = 0; !part.empty() && j < land.rows; ++j)
     std::copy_n(&part[static_cast<std::size_t>(j) * static_cast<std::size_t>(land.cols)], land.cols,
                 row_of(land.row + j) + static_cast<std::ptrdiff_t>(land.col - window.col));
-  for (std::int64_t row = first_row; row < from; ++row) std::copy_n(row_of(from), side, row_of(row));
-  for (std::int64_t row = to + 1; row < first_row + side; ++row) std::copy_n(row_of(to), side, row_of(row));
-  const auto first = static_cast<std::int32_t>(land.col - window.col) - halo;
-  nodes.fill_voids(plan.background, std::max(first, 0), std::min(first + land.cols, steps + 1));
+  const std::int64_t from = window.row, to = window.row + window.rows - 1;
+  for (std::int64_t row = first_row; row < from; ++row) std::copy_n(row_of(from), window.cols, row_of(row));
+  for (std::int64_t row = to + 1; row < first_row + window.cols; ++row)
+    std::copy_n(row_of(to), window.cols, row_of(row));
   return nodes;
 }
 
-void TileNodes::fill_voids(float background, std::int32_t first_col, std::int32_t end_col) {
+void TileNodes::note_voids(std::span<float> heights, const Part& part, float background) {
   const auto side = static_cast<std::size_t>(steps_) + 1;
-  const auto is_missing = [](float height) { return std::isnan(height); };
-  if (std::all_of(heights_.begin(), heights_.end(), is_missing)) {  // most tiles of coarse levels
-    has_heights_ = false;
-    is_flat_ = true;
-    voids_.assign(side * side, true);
-    std::fill(heights_.begin(), heights_.end(), background);
-    return;
-  }
+  const std::int32_t first_col = std::max(part.left, 0), end_col = std::min(part.left + part.cols, steps_ + 1);
+  const std::int32_t first_row = std::max(part.top, 0), end_row = std::min(part.top + part.rows, steps_ + 1);
+  const auto height_at = [&](std::int32_t col, std::int32_t row) {
+    return heights[static_cast<std::size_t>(row - part.top) * static_cast<std::size_t>(part.cols) +
+                   static_cast<std::size_t>(col - part.left)];
+  };
   std::size_t present = 0;
-  for (std::int32_t row = 0; row <= steps_; ++row) {
-    const float* const heights = &heights_[index(0, row)];
-    for (std::int32_t col = first_col; col < end_col; ++col) present += !std::isnan(heights[col]);
+  for (std::int32_t row = first_row; row < end_row; ++row) {
+    for (std::int32_t col = first_col; col < end_col; ++col) present += !std::isnan(height_at(col, row));
   }
   has_heights_ = present > 0;
-  if (present < side * side) {
-    voids_.assign(side * side, true);
-    for (std::int32_t row = 0; row <= steps_; ++row) {
-      for (std::int32_t col = first_col; col < end_col; ++col)
-        voids_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(col)] = std::isnan(at(col, row));
-    }
+  if (present < side * side) voids_.assign(side * side, true);
+  for (std::int32_t row = first_row; !voids_.empty() && row < end_row; ++row) {
+    for (std::int32_t col = first_col; col < end_col; ++col)
+      voids_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(col)] = std::isnan(height_at(col, row));
   }
-  for (float& height : heights_) height = std::isnan(height) ? background : height;
-  is_flat_ = std::all_of(heights_.begin(), heights_.end(), [&](float height) { return height == background; });
+  for (float& height : heights) height = std::isnan(height) ? background : height;
+  is_flat_ = std::all_of(heights.begin(), heights.end(), [&](float height) { return height == background; });
 }
 
 bool TileNodes::has_heights_around(double col, double row) const {

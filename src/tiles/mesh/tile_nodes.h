@@ -53,9 +53,12 @@ class TileNodes {
     return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
            static_cast<std::size_t>(col + halo_);
   }
-  /// Gives the background's height to nodes without one. Of its own nodes only the columns from `first_col` to
-  /// `end_col` have heights.
-  void fill_voids(float background, std::int32_t first_col, std::int32_t end_col);
+  /// Nodes from a first column and row on, which is negative in the halo.
+  struct Part {
+    std::int32_t left = 0, top = 0, cols = 0, rows = 0;
+  };
+  /// Gives the background's height to nodes of the part without one; nodes beyond it have none.
+  void note_voids(std::span<float> heights, const Part& part, float background);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;

@@ -44,6 +44,16 @@ bool HeldNodes::has_heights() const {
   return std::any_of(heights_.begin(), heights_.end(), [](float z) { return !std::isnan(z); });
 }
 
+bool HeldNodes::has_heights(const NodeWindow& window) const {
+  const NodeWindow part = land(window);
+  for (std::int64_t row = part.row; row < part.row + part.rows; ++row) {
+    const float* const from =
+        &heights_[static_cast<std::size_t>((row - land_.row) * land_.cols + (part.col - land_.col))];
+    if (std::any_of(from, from + part.cols, [](float z) { return !std::isnan(z); })) return true;
+  }
+  return false;
+}
+
 std::uint64_t HeldNodes::hash() const {
   if (!has_heights()) return 0;
   std::uint64_t hash = 0x9e3779b97f4a7c15;

@@ -15,6 +15,8 @@ class HeldNodes final : public NodeSource {
   /// Reads bands of rows on `threads` threads.
   static Result<HeldNodes> read(const NodeWindow& window, const NodeSource& source, int threads);
   bool has_heights() const;
+  /// REQUIRES: like read().
+  bool has_heights(const NodeWindow& window) const;
   /// A hash of all heights and their places in the window; 0 without any.
   std::uint64_t hash() const;
   /// REQUIRES: the window lies in the held one, with columns of the same turn.

@@ -74,22 +74,21 @@ std::vector<TileId> tiles_of(TileId block, int deepest) {
   return tiles;
 }
 
-Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  const std::int32_t steps = steps_of(plan, id.z);
-  return TileNodes::read(plan, id, steps, normal_reach(steps), source);
+/// True for a tile with heights, the block's own, and a required sibling of a tile that may have some.
+bool is_made(const PyramidPlan& plan, TileId id, const HeldNodes& nodes) {
+  const auto has_heights = [&](TileId tile) {
+    return nodes.has_heights(plan.grid.window_of(tile, steps_of(plan, tile.z)));
+  };
+  return is_wanted(plan, id) && (id.z == plan.block_level || has_heights(id) ||
+                                 (plan.has_siblings && has_heights({id.z - 1, id.x / 2, id.y / 2})));
 }
 
-/// Nothing for a tile without heights, unless it is the block's own or a required sibling of a tile that may have some.
-Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
+Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const HeldNodes& held,
                                             const TileEncoder& encode) {
-  if (!is_wanted(plan, id)) return std::optional<KeptTile>();
-  SCARP_TRY(const auto& nodes, read_nodes(plan, id, source));
-  if (!nodes.has_heights() && id.z > plan.block_level) {
-    if (!plan.has_siblings) return std::optional<KeptTile>();
-    SCARP_TRY(const auto& parent, read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source));
-    if (!parent.has_heights()) return std::optional<KeptTile>();
-  }
-  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, proof_at_nodes(plan, nodes, source), encode));
+  if (!is_made(plan, id, held)) return std::optional<KeptTile>();
+  const std::int32_t steps = steps_of(plan, id.z);
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), held));
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, proof_at_nodes(plan, nodes, held), encode));
   return std::optional(std::move(kept));
 }
 

@@ -1,0 +1,16 @@
+// A hook of the library's allocations, for a program that requests huge pages.
+#pragma once
+
+#include <cstddef>
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// Called with each block that an Array gets from malloc(). DEFAULT: null, nothing is called. A program sets it before
+/// it makes any array.
+inline void (*after_allocation)(void* block, std::size_t size) = nullptr;
+
+}  // namespace scarp
+
+#pragma GCC visibility pop
