@@ -1,7 +1,7 @@
 #!/bin/bash
 # usage: tools/test.sh test|rest|full
 #
-# test: everything needed to verify this tree on this machine. Release: unit tests, laws with 15 cases each, and the
+# test: everything needed to verify this tree on this machine. Release: unit tests, laws with 10 cases each, and the
 #       scripts of labels fast and full: program, Python, npm, viewer.
 # rest: what `make test-full` adds.
 #   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
@@ -166,8 +166,8 @@ run_test() {
   announce "Release: build"
   rm -rf "$build/times"
   timed build build_stage "$build" release all || return
-  announce "Release: unit tests, and laws with 15 cases"
-  SCARP_LAW_CASES=15 timed units run_gtest "$build/bin/scarp_tests" 40
+  announce "Release: unit tests, and laws with 10 cases"
+  SCARP_LAW_CASES=10 timed units run_gtest "$build/bin/scarp_tests" 40
   announce "Release: scripts"
   run_ctest "$build" -L 'fast|full' -E '^(few_cases|all_cases)[.]'  # what has just run
 }

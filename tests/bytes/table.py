@@ -19,8 +19,8 @@ import zipfile
 
 # File, height of a step or ridge, and a --memory too small for the samples: `hills` and `coast` stay in their file,
 # `fault` and `town` are kept in 16 bits.
-RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72500k"),
-           "coast": ("coast.bil", 200, "72500k"), "town": ("town.bil", 8, "72500k")}
+RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72260k"),
+           "coast": ("coast.bil", 200, "72260k"), "town": ("town.bil", 8, "72260k")}
 FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojson", "pond": "pond.geojson", "site": "site.geojson",
          "cut": "cut.geojson", "mask": "mask.bil", "near": "near.bil", "photo": "photo.ppm", "steps": "steps.txt"}
 
