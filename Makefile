@@ -117,7 +117,7 @@ help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result, make a page that shows it'
 	@echo 'make viewer   the page that scarp view fills in, by npm: $(BUILD)/share/scarp/viewer.html'
-	@echo 'make site     the documents, an example and the viewer to try with a file of your own, into dist/site'
+	@echo 'make site     the documents, an example, a terrain to dig in, and the viewer to try with a file of your own, into dist/site'
 	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'

@@ -14,6 +14,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$build/bin/scarp" simplify data/jacksboro_fault.tif "$scratch/jacksboro.glb" -e 20 --quiet
 "$build/bin/scarp" view "$scratch/jacksboro.glb" data/jacksboro_fault.tif -o "$site/example.html" --overwrite --quiet
+cp -r web/dig "$build/viewer/"
+node "$build/viewer/dig/build.mjs" "$site/dig.html" "$build-wasm/npm"
 cp web/site/build.mjs "$build/viewer/site.mjs"
 python3 tools/generate_docs.py "$build/bin/scarp" "$scratch"
 python3 tools/python_reference.py "$scratch/doc/scarp/python.md"

@@ -49,7 +49,7 @@ for (const [from, to] of [
   fs.copyFileSync(from, path.join(staged, to));
 // vite's dev server repacks scripts of node_modules into another folder, without the files next to them; .jsx is not
 // moved.
-for (const entry of ['index', 'full', 'lite', 'delatin', 'martini', 'loaders']) {
+for (const entry of ['index', 'full', 'lite', 'live', 'delatin', 'martini', 'loaders']) {
   const hasDefault = fs.readFileSync(`${staged}/${entry}.js`, 'utf8').includes('export default');
   fs.writeFileSync(
     `${staged}/${entry}.jsx`,
@@ -65,7 +65,7 @@ const imports = [
   'environ_sizes_get',
   'proc_exit',
 ];
-for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
+for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm', 'live.wasm']) {
   const bytes = fs.readFileSync(`${build}/bin/${name}`);
   // The linker turns an undefined name into an import.
   const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes))

@@ -5,7 +5,7 @@ source "$(dirname "$0")/../program/lib.sh"
 source "$(dirname "$0")/npm_package.sh"
 
 # Sizes after brotli, as transferred.
-for limit in lite:53 scarp:260 full:346; do
+for limit in lite:53 scarp:260 full:346 live:275; do
   size=$(node -p 'require("node:zlib").brotliCompressSync(require("node:fs").readFileSync(process.argv[1])).length' "node_modules/scarp/${limit%:*}.wasm")
   echo "${limit%:*}.wasm: $((size / 1000)) kB after brotli"
   holds "$size <= 1000 * ${limit#*:}" || fail "${limit%:*}.wasm has grown to $size bytes after brotli, above ${limit#*:} kB"
@@ -57,6 +57,19 @@ succeeds node same.mjs cases
 
 succeeds node --expose-gc api.mjs
 for part in pools refusals; do succeeds node $part.mjs; done
+
+# Fields that change: the cells that Python gets.
+succeeds node live.mjs
+library=$SCARP_BUILD/bindings/c/libscarp_c.so
+if [ -e "$library" ] && "$python_program" -c 'import numpy' 2> /dev/null; then
+  succeeds node live.mjs hash
+  cp "$logs/out" hashes
+  SCARP_LIBRARY=$library PYTHONPATH=$SCARP_SOURCE/bindings/python/src PYTHONDONTWRITEBYTECODE=1 succeeds "$python_program" live.py
+  cmp "$logs/out" hashes || fail "a field that changes has other cells than in Python"
+  [ "$(wc -l < hashes)" = 3 ] || fail "not all efforts were compared"
+else
+  echo "left out: the cells of scarp.Live (needs the C library and numpy)"
+fi
 
 # Its messages print numbers like the program's: with the fewest digits, or as in C.
 python3 - > numbers.json << 'E2'

@@ -1,5 +1,5 @@
 // Builds the static site: the documents as pages around the viewer. build.mjs SOURCE SITE MADE: SOURCE is the project's
-// folder, MADE has the generated documents; SITE has try.html. Fails for broken links.
+// folder, MADE has the generated documents; SITE has try.html, example.html and dig.html. Fails for broken links.
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, normalize, relative } from 'node:path';
 import { Marked } from 'marked';
@@ -83,6 +83,7 @@ function writePage(page) {
     ['index.html', 'Scarp'],
     ['try.html', 'Try it with your own file'],
     ['example.html', 'Example'],
+    ['dig.html', 'Dig a terrain'],
     ['docs/guide/README.html', 'Guides'],
     ['docs/cli.html', 'Command line'],
     ['docs/options.html', 'Options'],

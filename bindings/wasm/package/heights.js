@@ -113,6 +113,14 @@ export function checkHeights(z, width, height, nodata) {
   return { given, ...round(given, nodata) };
 }
 
+/// The float32 samples of a window, where NaN is nodata.
+export function takeHeights(z, cols, rows, nodata) {
+  const given = checkArray('the heights', z, NaN);
+  checkLength('the array of heights', given, cols * rows, `a window of ${cols} x ${rows}`);
+  const { samples, nodata: hole } = round(given, nodata);
+  return Number.isNaN(hole) ? samples : samples.map(value => (value === hole ? NaN : value));
+}
+
 /// A struct of doubles: numbers, and arrays of them.
 export function putDoubles(blocks, ...numbers) {
   return blocks.put(Float64Array.from(numbers.flat()));

@@ -159,11 +159,16 @@ export function start(source) {
 export function call(name, args, progress) {
   if (!functions) throw new ScarpError('usage', 'the library is not loaded yet: await ready() first');
   if (!functions[name]) {
-    const loaded = functions.scarp_simplify ? 'scarp' : 'scarp/lite';
+    const { scarp_simplify, scarp_live_create } = functions;
+    const loaded = scarp_live_create ? 'scarp/live' : scarp_simplify ? 'scarp' : 'scarp/lite';
+    const needed = /points|tiler/.test(name)
+      ? 'scarp/full, which has points and tiles'
+      : /live/.test(name)
+        ? 'scarp/live, which has fields that change'
+        : 'scarp, or scarp/full';
     throw new ScarpError(
       'usage',
-      `the module of ${loaded} was loaded first, and does not hold that: in place of ${loaded} import ` +
-        `${/points|tiler/.test(name) ? 'scarp/full, which has points and tiles' : 'scarp, or scarp/full'}`,
+      `the module of ${loaded} was loaded first, and does not hold that: in place of ${loaded} import ${needed}`,
     );
   }
   const outer = [tell, thrown];

@@ -70,6 +70,8 @@ const TABLE = {
   onProgress: work,
   worker: work,
   signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
+  cell: whole(8, 254),
+  place: numbers(2),
   size: whole(1, 1024),
   height: whole(2),
   bounds: orNull(numbers(4)),
@@ -118,6 +120,8 @@ export const ENTRIES = {
   simplifyPoints: [...POINTS, 'transfer'],
   simplifyPointsSync: POINTS,
   place: PLACE,
+  live: ['maxError', 'effort', 'cell', 'tolerance', 'place', ...PLACE],
+  update: ['tolerance'],
   refine: ['maxError', 'maxVertices'],
   pool: ['size', 'worker'],
   glb: ['compress'],
@@ -128,7 +132,10 @@ export const ENTRIES = {
   terrain: ['bounds', 'meshMaxError', 'elevationDecoder', 'skirtHeight', 'effort'],
 };
 /// Choices restricted by some entries.
-const NARROWER = { tiler: { effort: choice('fast', 'normal', 'high') } };
+const NARROWER = {
+  tiler: { effort: choice('fast', 'normal', 'high') },
+  live: { effort: choice('fast', 'normal', 'high') },
+};
 /// The goals required by an entry.
 const GOAL = 'give a goal, such as { maxError: 1 }';
 const NEEDS = {
@@ -136,6 +143,7 @@ const NEEDS = {
   simplifySync: GOAL,
   simplifyPoints: GOAL,
   simplifyPointsSync: GOAL,
+  live: 'give { maxError: 0.05 }',
   tiler: 'give { bounds: [west, south, east, north] }',
 };
 

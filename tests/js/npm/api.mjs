@@ -52,6 +52,10 @@ test('what a module lacks is told with the entry that was loaded, and what ready
     /^usage the module of scarp was loaded first.*import scarp\/full/,
   );
   assert.match(
+    told('scarp', 'scarp/live', 'new (await import("scarp/live")).Live([1, 2, 3, 4], 2, 2, { maxError: 1 })'),
+    /^usage the module of scarp was loaded first.*import scarp\/live/,
+  );
+  assert.match(
     told('scarp', 'scarp/lite', "await (await import('./node_modules/scarp/module.js?again')).start(5)"),
     /^usage ready\(\) was given 5; it takes/,
   );

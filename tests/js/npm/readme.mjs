@@ -5,7 +5,7 @@ import { serve } from './serve.mjs';
 
 const [program, readme] = process.argv.slice(2);
 const blocks = [...fs.readFileSync(readme, 'utf8').matchAll(/^```js\n(.*?)^```$/gms)].map(match => match[1]);
-const entries = ['', '/full', '/lite', '/delatin', '/martini'].map(name => [
+const entries = ['', '/full', '/lite', '/live', '/delatin', '/martini'].map(name => [
   `scarp${name}`,
   `./node_modules/scarp/${name.slice(1) || 'index'}.js`,
 ]);
@@ -18,7 +18,9 @@ const server = await serve(process.cwd());
 const { browser, page, errors } = await openPage(server.address, { width: 400, height: 300 }, program);
 try {
   for (const [k, block] of blocks.entries()) {
-    fs.writeFileSync(`readme_${k}.mjs`, `import './readme_prelude.mjs';\n${block}\nwindow.told = 'ran';\n`);
+    // A page loads one module.
+    const prelude = block.includes("'scarp/live'") ? '' : "import './readme_prelude.mjs';\n";
+    fs.writeFileSync(`readme_${k}.mjs`, `${prelude}${block}\nwindow.told = 'ran';\n`);
     fs.writeFileSync(
       `readme_${k}.html`,
       `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">

@@ -1,0 +1,73 @@
+import type { Floats, Heights, Mesh, Numbers, Place } from './index.js';
+
+export * from './index.js';
+
+export interface LiveOptions extends Place {
+  /** Every sample, as float32, is within this of the mesh, vertically, after every change. */
+  maxError: number;
+  effort?: 'fast' | 'normal' | 'high';
+  /** Steps between samples along the side of a cell, 8 to 254. Default: 32 with effort 'fast', else 64. */
+  cell?: number;
+  /** Bounds of samples, as in Options. */
+  tolerance?: Numbers | null;
+  /** Column and row of the first sample on the lattice of cells. */
+  place?: Numbers;
+}
+/** A rectangle of samples. Columns and rows count from the field's first sample. */
+export interface Window {
+  col: number;
+  row: number;
+  cols: number;
+  rows: number;
+}
+/** The mesh of a cell, ready for a GPU. */
+export interface Cell {
+  /** Its place in a renderer's buffer: at most one cell has it, also while the field moves. */
+  slot: number;
+  /** The change that made it. */
+  version: number;
+  /** Its first sample, on the lattice of cells. */
+  col: number;
+  row: number;
+  maxError: number;
+  /** Columns east and rows north of the first sample (so y <= 0), and the height. */
+  positions: Floats;
+  /** Counter-clockwise from above in these coordinates. Empty: the cell has no surface. */
+  indices: ReturnType<typeof Uint16Array.of>;
+}
+export interface Changes {
+  /** For the next call of changes(). */
+  version: number;
+  /** By slot. */
+  cells: Cell[];
+}
+
+export interface Live extends Disposable {}
+/**
+ * A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches. After
+ * any changes the mesh has the bytes of one made from the final samples at the same place. A failed call changes
+ * nothing. With another entry of the package loaded first, its constructor fails.
+ */
+export class Live {
+  constructor(z: Heights, width: number, height: number, options: LiveOptions);
+  /** Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay). */
+  update(window: Window, z: Heights, options?: { tolerance?: Numbers | null }): void;
+  /** Replaces one sample. */
+  set(col: number, row: number, z: number | null): void;
+  /** Moves the field over the ground, so many columns east and rows down; samples that come into it are voids. */
+  scroll(cols: number, rows: number): void;
+  /** The cells that changed after the version `since`, those that became empty included; after 0 all with a surface. */
+  changes(since?: number): Changes;
+  /** All cells as one mesh, without a report. */
+  mesh(): Mesh;
+  /** A copy of the samples, row by row. */
+  heights(): Floats;
+  readonly width: number;
+  readonly height: number;
+  readonly place: [number, number];
+  readonly maxError: number;
+  readonly triangleCount: number;
+  readonly slotCount: number;
+  /** Frees its memory at once. The garbage collector does so late, since it does not know the size. */
+  free(): void;
+}
