@@ -4,8 +4,8 @@
 # test: everything needed to verify this tree on this machine. Release: unit tests, laws with 10 cases each, and the
 #       scripts of labels fast and full: program, Python, npm, viewer.
 # rest: what `make test-full` adds.
-#   1. Release: laws with 100 cases each; scripts of label rest: packages, installs, clients of other languages,
-#      other programs, clusters.
+#   1. Release: laws with 100 cases each; comparisons of whole meshes; scripts of label rest: packages, installs,
+#      clients of other languages, other programs, clusters.
 #   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests, and laws with 8 cases each, with asserts and a share
 #      of the samples of real rasters (tests/laws/sanitized.h). One process runs many tests to save starts. With clang
 #      this is the fuzzers' build, so the library is compiled once. The C library, called by C (tests/abi/door.c) and,
@@ -144,7 +144,8 @@ names_of_laws() {
     sed 's/.*( *//; s/, */./' | paste -sd:
 }
 
-# Tests that compare sizes or errors of whole meshes. Laws run the same code on smaller ones, also under sanitizers.
+# Tests that compare sizes or errors of whole meshes: for make test-rest, without sanitizers. Laws run the same code on
+# smaller ones.
 compared=(
   bounds.that_are_all_but_one_the_same_take_as_many_triangles_as_a_threshold
   bounds.that_fall_across_a_field_take_fewer_triangles_with_each_effort
@@ -164,10 +165,14 @@ compared=(
 
 run_test() {
   announce "Release: build"
-  rm -rf "$build/times"
+  rm -rf "$build/times" "$build/gauge"
+  mkdir -p "$build"
+  tools/test_times.py "$build" --gauge
   timed build build_stage "$build" release all || return
+  tools/test_times.py "$build" --gauge
   announce "Release: unit tests, and laws with 10 cases"
-  SCARP_LAW_CASES=10 timed units run_gtest "$build/bin/scarp_tests" 40
+  GTEST_FILTER=-$(IFS=: && echo "${compared[*]}") SCARP_LAW_CASES=10 timed units run_gtest "$build/bin/scarp_tests" 40
+  tools/test_times.py "$build" --gauge
   announce "Release: scripts"
   run_ctest "$build" -L 'fast|full' -E '^(few_cases|all_cases)[.]'  # what has just run
 }
@@ -175,7 +180,7 @@ run_test() {
 run_rest() {
   announce "1/4 Release: laws with 100 cases; packages, installs, clients, clusters"
   if timed rest_build build_stage "$build" release all scarp_rest_programs; then
-    GTEST_FILTER=$(names_of_laws) timed rest_laws run_gtest "$build/bin/scarp_tests" 40
+    GTEST_FILTER=$(names_of_laws):$(IFS=: && echo "${compared[*]}") timed rest_laws run_gtest "$build/bin/scarp_tests" 40
     run_ctest "$build" -L rest
   fi
 

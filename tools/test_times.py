@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Prints the CPU seconds of each stage and script of the last `make test`, the longest first.
 
-usage: tools/test_times.py [BUILD] [--rest] [--most SECONDS]
+usage: tools/test_times.py [BUILD] [--rest] [--most SECONDS | --gauge]
 
 BUILD is the build folder (build). Without --rest: the stages of `make test`; with it, what `make test-full` adds. With
 --most the exit code is 1 if the sum is larger, to detect growth of the tests. SECONDS apply to a machine where a
 compilation on every core at once needs REFERENCE CPU seconds; on slower or shared cores the limit grows in proportion.
+--gauge compiles, and notes the seconds in BUILD/gauge: shared cores change their speed during a run, so the limit is
+for the mean of the notes and of a last compilation.
 """
 import argparse
 import multiprocessing
@@ -26,13 +28,20 @@ def compile_once(_):
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-def slowness():
-    """The factor, at least 1, by which a compilation on all cores at once is slower than on the machine of
-    REFERENCE."""
+def gauge(notes):
+    """Adds the CPU seconds of a compilation on all cores at once to the file `notes`."""
     cores = os.cpu_count() or 2
     with multiprocessing.Pool(cores) as pool:
         taken = sorted(pool.map(compile_once, range(3 * cores), chunksize=1))
-    return max(1.0, taken[len(taken) // 2] / REFERENCE)
+    with open(notes, "a", encoding="utf-8") as file:
+        file.write(f"{taken[len(taken) // 2]:.3f}\n")
+
+
+def slowness(notes):
+    """The factor, at least 1, by which compilations are slower than on the machine of REFERENCE."""
+    taken = [float(line) for line in notes.read_text().split()]
+    print(f"{' '.join(f'{seconds:.1f}' for seconds in taken)}: CPU seconds of a compilation during the run; {REFERENCE} is the reference")
+    return max(1.0, sum(taken) / len(taken) / REFERENCE)
 
 
 def scripts_of_rest(build):
@@ -46,7 +55,11 @@ def main():
     parser.add_argument("build", nargs="?", default="build")
     parser.add_argument("--rest", action="store_true")
     parser.add_argument("--most", type=float)
+    parser.add_argument("--gauge", action="store_true")
     arguments = parser.parse_args()
+    notes = pathlib.Path(arguments.build, "gauge")
+    if arguments.gauge:
+        return gauge(notes)
     rest = scripts_of_rest(arguments.build)
     seconds = {file.name: float(file.read_text()) for file in pathlib.Path(arguments.build, "times").glob("*")}
     if not seconds:
@@ -57,7 +70,8 @@ def main():
     total = sum(chosen.values())
     print(f"{total:8.1f} CPU seconds in all")
     if arguments.most is not None:
-        most = arguments.most * slowness()
+        gauge(notes)
+        most = arguments.most * slowness(notes)
         print(f"{most:8.1f} are the most that this machine may take")
         if total > most:
             sys.exit(f"make test took {total:.0f} CPU seconds, more than {most:.0f}: make its dearest tests smaller")

@@ -152,7 +152,7 @@ RC_GTEST_PROP(channels_of_efforts, spend_budgets_on_their_norm, ()) {
 }
 
 TEST(channels_of_efforts, take_fewer_triangles_with_each_level) {
-  const int cols = testing::fewer(150), rows = testing::fewer(100);
+  const int cols = testing::fewer(300), rows = testing::fewer(200);
   Coloured coloured{testing::random_field(21, cols, rows, Relief::kRidges, 0.02), {}, {}, 1};
   for (std::uint32_t k = 0; k < 3; ++k) {
     coloured.layers.push_back(testing::random_field(21 + k, cols, rows, Relief::kRidges));

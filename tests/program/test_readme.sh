@@ -6,6 +6,10 @@ need python3 gdaldem gdalwarp
 readme=$SCARP_SOURCE/README.md
 [ "$(wc -l < "$readme")" -le 90 ] || fail "the README has more than 90 lines: $(wc -l < "$readme")"
 PATH=$(dirname "$scarp"):$PATH
+if [ -n "${SCARP_CLIENT-}" ]; then
+  scarp() { "$SCARP_CLIENT" "$SCARP_STARTED" "$@"; }
+  export -f scarp
+fi
 
 # commands FILE: the commands of cookbook rows, indented code (with those that make its input), and sessions
 # (```console, after a $), without comments. A line that ends in \ continues.
