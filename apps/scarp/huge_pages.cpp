@@ -1,7 +1,6 @@
 // The program's memory: blocks on huge pages, where the system grants them on request, and a heap that keeps freed
 // memory for the next block. With pages of 4 kB, and a system that zeroes them for each block anew, page faults cost a
 // quarter to a half of a run's time (bench/performance.md).
-#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -11,7 +10,8 @@
 
 #include "base/after_allocation.h"
 
-#ifdef MADV_HUGEPAGE
+#if defined(MADV_HUGEPAGE) && defined(__GLIBC__)
+#include <malloc.h>
 
 namespace {
 

@@ -51,8 +51,7 @@ jobs.append({"page": f"{folder}/dig.html", "steps": [{"until": "window.digPage !
              {"clicks": [[700, 400]], "read": "digPage.live().maxError"}, {"do": DIG, "shot": "dug"}], "axe": True})
 print(json.dumps(jobs))
 E2
-shots=${SCARP_SHOTS:-$scratch}
-succeeds node "$js/viewer.mjs" jobs.json "$shots" "$browser"
+succeeds node "$js/viewer.mjs" jobs.json "${SCARP_SHOTS-}" "$browser"
 python3 - "$logs/out" << 'E2'
 import json, sys
 answers = json.load(open(sys.argv[1]))

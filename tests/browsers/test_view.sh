@@ -4,8 +4,7 @@
 source "$(dirname "$0")/../program/lib.sh"
 need python3 node npm
 "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > build.log 2>&1 || skip "the viewer's page cannot be built: $(tail -1 build.log)"
-shots=${SCARP_SHOTS:-$scratch/shots}
-mkdir -p "$shots"
+[ -z "${SCARP_SHOTS-}" ] || mkdir -p "$SCARP_SHOTS"
 
 succeeds "$scarp" simplify "$dem" plain.glb -e 20 -q
 succeeds "$scarp" simplify "$dem" packed.glb -e 5 --compress --html by_simplify.html
@@ -219,6 +218,6 @@ open("image_elsewhere.glb", "wb").write(struct.pack("<4sIIII", b"glTF", 2, 20 + 
 E2
 
 python3 "$SCARP_SOURCE/tests/browsers/view_pages.py" jobs > jobs.json
-succeeds node "$js/viewer.mjs" jobs.json "$shots" "$browser"
+succeeds node "$js/viewer.mjs" jobs.json "${SCARP_SHOTS-}" "$browser"
 cp "$logs/out" answers.json
 python3 "$SCARP_SOURCE/tests/browsers/view_pages.py"

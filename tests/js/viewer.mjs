@@ -2,7 +2,7 @@
 //
 // JOBS.json: a list of {page, folder, width, height, dark, forced_colors, no_script, before, steps, axe}. `folder`:
 // allowed requests besides the page. `before` runs in the page before its script; each step is {drop: [{name, path}],
-// do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}; shots only with SCARP_SHOTS.
+// do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}; without SHOTS no shot.
 // Prints JSON, one answer a job: the values of `do` and `read`, console errors, requests to other addresses, and
 // axe-core's objections.
 import { readFileSync } from 'node:fs';
@@ -52,7 +52,7 @@ async function doJob(job) {
       for (const at of step.clicks ?? []) await page.mouse.click(...at);
       if (step.until) await waitFor(page, step.until);
       if (step.read) values.push(await page.evaluate(step.read));
-      if (step.shot && process.env.SCARP_SHOTS) await page.screenshot({ path: `${shots}/${step.shot}.png` });
+      if (step.shot && shots) await page.screenshot({ path: `${shots}/${step.shot}.png` });
       if (step.after) await page.evaluate(step.after);
     }
     let violations = [];

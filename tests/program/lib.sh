@@ -39,7 +39,7 @@ cd "$root/run"
 python_program=$(command -pv python3 || command -v python3 || true)
 if [ -n "$python_program" ]; then python3() { "$python_program" -S "$@"; }; fi
 
-# Headless, with half the CPU time of a whole browser; else that.
+# The headless one uses less CPU time than a whole browser.
 browser=$(command -v chromium-headless-shell || command -v chromium || echo chromium-headless-shell)
 
 fail() {

@@ -1,7 +1,6 @@
 #include "scarp/live.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "mesh.h"
@@ -89,15 +88,8 @@ SCARP_EXPORT(scarp_live_heights) double scarp_live_heights(const LiveField* live
   });
 }
 SCARP_EXPORT(scarp_live_mesh) WholeMesh* scarp_live_mesh(const LiveField* live) {
-  return give<WholeMesh>([&]() -> Result<std::unique_ptr<WholeMesh>> {
-    auto whole = std::make_unique<WholeMesh>();
-    whole->mesh = live->mesh();
-    whole->report.vertices = static_cast<double>(whole->mesh.vertex_count());
-    whole->report.triangles = static_cast<double>(whole->mesh.triangle_count());
-    whole->report.max_error = live->max_error();
-    whole->report.rmse = std::numeric_limits<double>::quiet_NaN();
-    return whole;
-  });
+  return give<WholeMesh>(
+      [&]() -> Result<std::unique_ptr<WholeMesh>> { return whole_of(live->mesh(), live->max_error()); });
 }
 SCARP_EXPORT(scarp_live_free) void scarp_live_free(LiveField* live) { delete live; }
 

@@ -25,6 +25,9 @@ struct WholeMesh {
   double cell[2] = {0, 0};  ///< sides of a raster cell along x and y, with sign; 0: unknown
 };
 
+/// A mesh with its largest error; the rest of its report is unknown.
+std::unique_ptr<WholeMesh> whole_of(Mesh mesh, double max_error);
+
 struct MeshView {
   double vertices, triangles;
   double positions, corners, normals, uvs;  ///< addresses; 0: none

@@ -38,14 +38,7 @@ SCARP_EXPORT(scarp_refiner_triangles) double scarp_refiner_triangles(const Refin
   return static_cast<double>(refiner->triangle_count());
 }
 SCARP_EXPORT(scarp_refiner_mesh) WholeMesh* scarp_refiner_mesh(const Refiner* refiner) {
-  return give<WholeMesh>([&]() -> Result<std::unique_ptr<WholeMesh>> {
-    auto whole = std::make_unique<WholeMesh>();
-    whole->mesh = refiner->mesh(false);
-    whole->report.vertices = static_cast<double>(whole->mesh.vertex_count());
-    whole->report.triangles = static_cast<double>(whole->mesh.triangle_count());
-    whole->report.max_error = refiner->max_error();
-    whole->report.rmse = std::numeric_limits<double>::quiet_NaN();
-    return whole;
-  });
+  return give<WholeMesh>(
+      [&]() -> Result<std::unique_ptr<WholeMesh>> { return whole_of(refiner->mesh(false), refiner->max_error()); });
 }
 SCARP_EXPORT(scarp_refiner_free) void scarp_refiner_free(Refiner* refiner) { delete refiner; }

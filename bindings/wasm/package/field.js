@@ -1,7 +1,7 @@
 // A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches.
 import { ScarpError } from './error.js';
 import { call, callOrThrow, view, withBlocks } from './module.js';
-import { checkLength, checkSide, putDoubles, putField, refuse, takeBeside, takeHeights } from './heights.js';
+import { checkLength, checkSide, putDoubles, putField, refuse, takeBeside, takeRaster, takeWindow } from './heights.js';
 import { takeMesh } from './mesh.js';
 import { choose, show, takeOptions } from './options.js';
 
@@ -20,13 +20,12 @@ export class Live {
 
   constructor(z, width, height, options) {
     const taken = takeOptions(options, 'live');
-    const { maxError, effort = 'fast', cell = 0, tolerance, place = [0, 0], nodata } = taken;
+    const { maxError, effort = 'fast', cell = 0, tolerance, place = [0, 0], nodata, transform, degrees } = taken;
     if (maxError === undefined) refuse('maxError is missing: give { maxError: 0.05 }');
     for (const value of place) checkWhole('place', value);
     this.#nodata = nodata;
     this.#held = withBlocks(blocks => {
-      const { address } = putField(blocks, z, width, height, taken);
-      view(Float64Array, address, 5)[4] = 0; // samples are meant as float32
+      const { address } = putField(blocks, takeRaster(z, width, height, nodata), width, height, { transform, degrees });
       const bounds = tolerance ? blocks.put(takeBeside('tolerance', tolerance, width, height)) : 0;
       const asked = putDoubles(blocks, maxError, choose('effort', effort), cell, bounds, Array.from(place));
       return callOrThrow('scarp_live_create', [address, asked]);
@@ -54,7 +53,7 @@ export class Live {
     const { col, row, cols, rows } = window ?? {};
     for (const [name, value] of Object.entries({ col, row })) checkWhole(`the window's ${name}`, value);
     for (const [name, value] of Object.entries({ cols, rows })) checkSide(`the window's ${name}`, value, 1);
-    const samples = takeHeights(z, cols, rows, this.#nodata);
+    const samples = takeWindow(z, cols, rows, this.#nodata);
     withBlocks(blocks => {
       const bounds = tolerance ? blocks.put(takeBeside('tolerance', tolerance, cols, rows)) : 0;
       callOrThrow('scarp_live_update', [this.#handle, col, row, cols, rows, blocks.put(samples), bounds]);

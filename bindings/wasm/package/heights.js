@@ -113,12 +113,17 @@ export function checkHeights(z, width, height, nodata) {
   return { given, ...round(given, nodata) };
 }
 
-/// The float32 samples of a window, where NaN is nodata.
-export function takeHeights(z, cols, rows, nodata) {
+const voidNodata = ({ samples, nodata }) =>
+  Number.isNaN(nodata) ? samples : samples.map(value => (value === nodata ? NaN : value));
+
+/// The float32 samples of a raster, where NaN is nodata.
+export const takeRaster = (z, width, height, nodata) => voidNodata(checkHeights(z, width, height, nodata));
+
+/// The same of a window of it.
+export function takeWindow(z, cols, rows, nodata) {
   const given = checkArray('the heights', z, NaN);
   checkLength('the array of heights', given, cols * rows, `a window of ${cols} x ${rows}`);
-  const { samples, nodata: hole } = round(given, nodata);
-  return Number.isNaN(hole) ? samples : samples.map(value => (value === hole ? NaN : value));
+  return voidNodata(round(given, nodata));
 }
 
 /// A struct of doubles: numbers, and arrays of them.

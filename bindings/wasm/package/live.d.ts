@@ -14,14 +14,14 @@ export interface LiveOptions extends Place {
   place?: Numbers;
 }
 /** A rectangle of samples. Columns and rows count from the field's first sample. */
-export interface Window {
+export interface LiveWindow {
   col: number;
   row: number;
   cols: number;
   rows: number;
 }
 /** The mesh of a cell, ready for a GPU. */
-export interface Cell {
+export interface LiveCell {
   /** Its place in a renderer's buffer: at most one cell has it, also while the field moves. */
   slot: number;
   /** The change that made it. */
@@ -35,11 +35,11 @@ export interface Cell {
   /** Counter-clockwise from above in these coordinates. Empty: the cell has no surface. */
   indices: ReturnType<typeof Uint16Array.of>;
 }
-export interface Changes {
+export interface LiveChanges {
   /** For the next call of changes(). */
   version: number;
   /** By slot. */
-  cells: Cell[];
+  cells: LiveCell[];
 }
 
 export interface Live extends Disposable {}
@@ -51,13 +51,13 @@ export interface Live extends Disposable {}
 export class Live {
   constructor(z: Heights, width: number, height: number, options: LiveOptions);
   /** Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay). */
-  update(window: Window, z: Heights, options?: { tolerance?: Numbers | null }): void;
+  update(window: LiveWindow, z: Heights, options?: { tolerance?: Numbers | null }): void;
   /** Replaces one sample. */
   set(col: number, row: number, z: number | null): void;
   /** Moves the field over the ground, so many columns east and rows down; samples that come into it are voids. */
   scroll(cols: number, rows: number): void;
   /** The cells that changed after the version `since`, those that became empty included; after 0 all with a surface. */
-  changes(since?: number): Changes;
+  changes(since?: number): LiveChanges;
   /** All cells as one mesh, without a report. */
   mesh(): Mesh;
   /** A copy of the samples, row by row. */

@@ -34,7 +34,7 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   SCARP_RETURN_IF_ERROR(count > 0 ? source.read(land, out) : Result<void>());
   const auto left = static_cast<std::int32_t>(land.col - window.col) - halo,
              top = static_cast<std::int32_t>(land.row - first_row) - halo;
-  nodes.note_voids(out, {left, top, land.cols, land.rows}, plan.background);
+  nodes.fill_voids(out, {left, top, land.cols, land.rows}, plan.background);
   for (std::int32_t j = 0; !part.empty() && j < land.rows; ++j)
     std::copy_n(&part[static_cast<std::size_t>(j) * static_cast<std::size_t>(land.cols)], land.cols,
                 row_of(land.row + j) + static_cast<std::ptrdiff_t>(land.col - window.col));
@@ -45,7 +45,7 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   return nodes;
 }
 
-void TileNodes::note_voids(std::span<float> heights, const Part& part, float background) {
+void TileNodes::fill_voids(std::span<float> heights, const Part& part, float background) {
   const auto side = static_cast<std::size_t>(steps_) + 1;
   const std::int32_t first_col = std::max(part.left, 0), end_col = std::min(part.left + part.cols, steps_ + 1);
   const std::int32_t first_row = std::max(part.top, 0), end_row = std::min(part.top + part.rows, steps_ + 1);

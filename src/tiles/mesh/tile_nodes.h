@@ -58,7 +58,7 @@ class TileNodes {
     std::int32_t left = 0, top = 0, cols = 0, rows = 0;
   };
   /// Gives the background's height to nodes of the part without one; nodes beyond it have none.
-  void note_voids(std::span<float> heights, const Part& part, float background);
+  void fill_voids(std::span<float> heights, const Part& part, float background);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;

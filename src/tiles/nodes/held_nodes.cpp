@@ -40,9 +40,7 @@ Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& so
   return held;
 }
 
-bool HeldNodes::has_heights() const {
-  return std::any_of(heights_.begin(), heights_.end(), [](float z) { return !std::isnan(z); });
-}
+bool HeldNodes::has_heights() const { return has_heights(window_); }
 
 bool HeldNodes::has_heights(const NodeWindow& window) const {
   const NodeWindow part = land(window);

@@ -14,7 +14,7 @@ import {
 } from 'scarp';
 import { Tiler, simplifyPointsSync, type LayerJson } from 'scarp/full';
 import { Refiner as Lite } from 'scarp/lite';
-import { Live, type Cell } from 'scarp/live';
+import { Live, type LiveCell } from 'scarp/live';
 import { simplify as inlined } from 'scarp/inline';
 import Delatin from 'scarp/delatin';
 import Martini from 'scarp/martini';
@@ -47,7 +47,7 @@ const refiner = new Refiner([1, null, 3, 4], 2, 2, { nodata: null }),
 const inserted: number = refiner.run({ maxError: 1 }) + lite.run({ maxVertices: 10 });
 const live = new Live(z, 65, 65, { maxError: 0.1, effort: 'normal', place: [3, 4] });
 live.update({ col: 1, row: 2, cols: 1, rows: 2 }, [1, null], { tolerance: null });
-const cells: readonly Cell[] = live.changes(live.changes().version).cells;
+const cells: readonly LiveCell[] = live.changes(live.changes().version).cells;
 const tile: Uint8Array = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).tile(0, 1, 0).bytes;
 const layer: LayerJson = new Tiler(z, 65, 65, { bounds: [0, 0, 1, 1] }).layerJson({ name: 'land' });
 const points: Mesh = simplifyPointsSync([0, 0, 0], { maxError: 1 });
