@@ -50,6 +50,15 @@ void request_huge_pages(void* block, std::size_t size) {
   }
 }
 
+/// Replaced, too, so that a runtime that replaces every form, such as a sanitizer's, sees one allocator.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
 [[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
 [[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
