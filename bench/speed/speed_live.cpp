@@ -2,12 +2,15 @@
 //
 //   speed_live [RASTER COLS ROWS] [--error E] [--window N] [--updates N] [--effort E] [--cells N...]
 //   speed_live --readers N [--error E] [--window N] [--updates N]
+//   speed_live [RASTER COLS ROWS] --budget TRIANGLES [--error E] [--window N] [--updates N] [--effort E] [--cells N...]
 //
 // Without a raster: an elevation map of 500 × 500 cells of 5 cm, boxes on a floor with 5 mm of noise, and holes; errors
 // of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's own, with fresh noise of a
 // quarter of the error. CSV: milliseconds of CPU time of an update (mean, 99th percentile, worst), of simplify() on the
 // whole, and triangles of both. With --readers: updates a second (wall clock) at fast effort while N other threads ask
-// for the changes every millisecond, and the slowest.
+// for the changes every millisecond, and the slowest. With --budget: an update digs a crater or raises a hill of up to
+// 40 errors; CSV: the least and the largest count of triangles as parts of the budget, updates that moved bounds, and
+// triangles of changed cells an update.
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -53,16 +57,22 @@ struct Bench {
   double error;
   int window, updates;
 
-  /// Calls note(times) after each update.
+  /// Calls note(times) after each update. `hill`: the largest height, in errors, of what an update raises or digs.
   template <class Note>
-  void update(scarp::LiveField& live, const Note& note) const {
+  void update(scarp::LiveField& live, double hill, const Note& note) const {
     std::mt19937 random(1);
+    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
     for (int k = 0; k < updates; ++k) {
       const int col = static_cast<int>(random() % static_cast<unsigned>(raster.cols - window + 1));
       const int row = static_cast<int>(random() % static_cast<unsigned>(raster.rows - window + 1));
       bench::RawRaster part = bench::window_of(raster, col, row, window, window);
-      for (float& z : part.samples)
-        z += static_cast<float>(error * (static_cast<double>(random()) / 4294967296.0 - 0.5) / 4);
+      const double height = hill > 0 ? 2 * hill * uniform() : 0;
+      for (int at = 0; at < window * window; ++at) {
+        const double x = 2.0 * (at % window + 1) / (window + 1) - 1, y = 2.0 * (at / window + 1) / (window + 1) - 1;
+        const double bump = std::max(0.0, 1 - x * x - y * y);
+        part.samples[static_cast<std::size_t>(at)] +=
+            static_cast<float>(error * (uniform() / 4 + height * bump * bump));
+      }
       const bench::Stopwatch watch;
       const auto updated = live.update({col, row, window, window}, part.samples);
       note(watch.read());
@@ -81,13 +91,42 @@ struct Bench {
       });
     }
     double sum = 0, worst = 0;
-    update(live, [&](const bench::Times& times) {
+    update(live, 0, [&](const bench::Times& times) {
       sum += times.wall;
       worst = std::max(worst, times.wall);
     });
     is_done = true;
     for (std::thread& reader : readers) reader.join();
     std::printf("readers,updates_per_second,worst_ms\n%d,%.0f,%.2f\n", count, updates / sum, 1e3 * worst);
+  }
+
+  void run_with_budget(const std::string& effort, int cell, std::uint64_t budget) const {
+    scarp::LiveOptions options{0, bench::effort_of(effort), cell};
+    options.max_triangles = budget;
+    scarp::LiveField live = bench::check(scarp::LiveField::create(bench::field_of(raster), options));
+    std::vector<double> milliseconds;
+    std::uint64_t least = budget, most = 0, changed = 0, version = live.changes().version;
+    std::int64_t level = live.level();
+    int moved = 0;
+    update(live, 40, [&](const bench::Times& times) {
+      milliseconds.push_back(1e3 * times.cpu());
+      least = std::min(least, live.triangle_count());
+      most = std::max(most, live.triangle_count());
+      moved += live.level() != level ? 1 : 0;
+      level = live.level();
+      const scarp::LiveChanges changes = live.changes(version);
+      version = changes.version;
+      changed += changes.triangle_count();
+    });
+    std::sort(milliseconds.begin(), milliseconds.end());
+    const auto count = static_cast<double>(milliseconds.size());
+    std::printf("%s,%d,%d,%d,%g,%llu,%.3f,%.3f,%.3f,%.4f,%.4f,%d,%.1f\n", effort.c_str(), raster.cols, window, cell,
+                error, static_cast<unsigned long long>(budget),
+                std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0) / count,
+                milliseconds[(milliseconds.size() - 1) * 99 / 100], milliseconds.back(),
+                static_cast<double>(least) / static_cast<double>(budget),
+                static_cast<double>(most) / static_cast<double>(budget), moved, static_cast<double>(changed) / count);
+    std::fflush(stdout);
   }
 
   void run(const std::string& effort, int cell) const {
@@ -103,10 +142,9 @@ struct Bench {
         bench::check(scarp::LiveField::create(field, {error, bench::effort_of(effort), cell, 1, {}}));
     const std::uint64_t triangles = live.triangle_count();
     std::vector<double> milliseconds;
-    update(live, [&](const bench::Times& times) { milliseconds.push_back(1e3 * times.cpu()); });
+    update(live, 0, [&](const bench::Times& times) { milliseconds.push_back(1e3 * times.cpu()); });
     std::sort(milliseconds.begin(), milliseconds.end());
-    double sum = 0;
-    for (const double one : milliseconds) sum += one;
+    const double sum = std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     const std::size_t last = milliseconds.size() - 1;
     std::printf("%s,%d,%d,%d,%g,%.3f,%.3f,%.3f,%.1f,%llu,%zu,%.3f\n", effort.c_str(), raster.cols, window, cell, error,
                 sum / static_cast<double>(milliseconds.size()), milliseconds[last * 99 / 100], milliseconds[last],
@@ -119,9 +157,10 @@ struct Bench {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bench::Arguments arguments(argc, argv,
-                                   "speed_live [RASTER] [COLS] [ROWS] [--readers N] [--error E] [--window N] "
-                                   "[--updates N] [--effort E] [--cells N...]");
+  const bench::Arguments arguments(
+      argc, argv,
+      "speed_live [RASTER] [COLS] [ROWS] [--readers N] [--budget TRIANGLES] [--error E] [--window N] "
+      "[--updates N] [--effort E] [--cells N...]");
   const bool has_raster = arguments.count() == 3;
   const bench::RawRaster raster = has_raster ? bench::read_raw(arguments) : make_map(3);
   const double error = arguments.number("--error", 0.02);
@@ -133,10 +172,17 @@ int main(int argc, char** argv) {
   std::vector<int> cells;
   for (const std::string& cell : arguments.values("--cells")) cells.push_back(std::stoi(cell));
   if (cells.empty()) cells = {32, 48, 64, 96, 128};
-  std::printf(
-      "effort,field,window,cell,error,mean_ms,p99_ms,worst_ms,whole_ms,triangles,whole_triangles,triangle_ratio\n");
+  const int budget = arguments.number("--budget", 0);
+  std::printf("effort,field,window,cell,error,%s\n",
+              budget > 0 ? "budget,mean_ms,p99_ms,worst_ms,least,most,moved,changed_triangles"
+                         : "mean_ms,p99_ms,worst_ms,whole_ms,triangles,whole_triangles,triangle_ratio");
   for (const std::string effort : {"fast", "normal", "high"}) {
     if (arguments.value("--effort", effort) != effort) continue;
-    for (const int cell : cells) bench.run(effort, cell);
+    for (const int cell : cells) {
+      if (budget > 0)
+        bench.run_with_budget(effort, cell, static_cast<std::uint64_t>(budget));
+      else
+        bench.run(effort, cell);
+    }
   }
 }

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,8 @@
 namespace scarp {
 
 struct LiveOptions {
-  double max_error = 0;           ///< vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample
+  /// Vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample, unless a budget needs more.
+  double max_error = 0;
   Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
   /// Steps between samples along the side of a cell, 8 to 254. Small cells need less time and, above fast effort, more
   /// triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
@@ -38,6 +40,15 @@ struct LiveOptions {
   /// Place of the field's first sample on the lattice of cells; a lattice line of cells runs through sample (0, 0).
   /// A field that was scrolled equals a new field at its place.
   SampleAt place = {};
+  /// Budget: after every change the field has at most so many triangles, and mostly at least 98 % of them, unless fewer
+  /// keep max_error. For it the cells' bounds rise and fall, one cell after the other, in steps of 19 %; those of any
+  /// two cells differ by one step at most. LiveField::max_error() is the result. Not with tolerances. DEFAULT: none.
+  std::optional<std::uint64_t> max_triangles = std::nullopt;
+  /// LiveField::level() of another field, from which the bounds start: with its samples the mesh is the same. DEFAULT:
+  /// found from the heights.
+  std::optional<std::int64_t> level = std::nullopt;
+  /// The norm over heights and channels, as Goals::norm, for fields with channels.
+  Norm norm = Norm::kSum;
 };
 
 /// A rectangle of samples. Columns and rows count from the field's first sample.
@@ -59,7 +70,8 @@ struct LiveCell {
   /// Three for each triangle, counter-clockwise from above in these coordinates, in an order good for a GPU. Empty: the
   /// cell has no surface.
   std::vector<std::uint16_t> triangles;
-  double max_error = 0;  ///< measured
+  std::vector<float> channels;  ///< one for each vertex and channel of the field, vertex by vertex
+  double max_error = 0;         ///< measured; of the norm where the field has channels
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t triangle_count() const { return triangles.size() / 3; }
@@ -68,6 +80,12 @@ struct LiveCell {
 struct LiveChanges {
   std::uint64_t version = 0;                           ///< for the next call of changes()
   std::vector<std::shared_ptr<const LiveCell>> cells;  ///< by slot
+
+  std::uint64_t triangle_count() const {
+    std::uint64_t count = 0;
+    for (const auto& cell : cells) count += cell->triangle_count();
+    return count;
+  }
 };
 
 /// A height field and its mesh.
@@ -75,25 +93,29 @@ struct LiveChanges {
 /// Cells lie on a fixed lattice. A cell's mesh depends on its samples, on the validity of the samples around it, and on
 /// the options only; its border is a locked border (Border) whose line depends on the border's samples and the validity
 /// of those next to it. So, after any sequence of changes, the mesh has the same bytes as that of a new field with the
-/// final samples at the same place, for any number of threads.
+/// final samples at the same place, for any number of threads. With a budget it also depends on level(), which stays
+/// while the count of triangles keeps within its range; the new field needs the same one.
 ///
 /// Guarantee after each change: the guarantees of simplify() hold for every cell, hence for the field; the domain is
 /// that of simplify() for the whole field. Neighbouring cells share the vertices of their border: no cracks.
 ///
 /// Samples: NaN, infinities and HeightField::nodata are voids, also in updates. Tolerances, if the field has them, are
-/// bounds of samples as in Tolerances::values. Frames: affine. Fields with channels or a source fail with kUsage.
+/// bounds of samples as in Tolerances::values. Frames: affine. Fields with a source fail with kUsage.
+/// Channels, if the field has them, have a value at every sample with a height; then errors are norms, as HeightField
+/// and LiveOptions::norm define them.
 ///
 /// Threads: one thread at a time may change the field; a second one gets an error. Any number may call changes(),
 /// mesh(), max_error() and triangle_count() meanwhile: they see the state before or after a change, and a lock is held
 /// only while pointers are copied. heights() and a change wait for each other.
 ///
-/// Errors: kUsage for windows outside the field and arrays of the wrong size, and those of simplify(). The field is
-/// then unchanged.
+/// Errors: kUsage for windows outside the field, arrays of the wrong size and budgets that no bound keeps; kInput for
+/// heights without a channel's value; those of simplify(). The field is then unchanged.
 ///
 /// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
-/// cell's size); independent of the size of the field. That of scroll(): the cells along the field's border. That of
+/// cell's size); independent of the size of the field, except that a budget makes other cells anew, mostly a few, where
+/// the count leaves its range. That of scroll(): the cells along the field's border. That of
 /// changes(): O(cells of the field).
-/// Memory: 4 bytes a sample (8 with tolerances), and the cells' meshes.
+/// Memory: 4 bytes a sample (8 with tolerances), 4 more for each channel, and the cells' meshes.
 class LiveField {
  public:
   /// Copies the samples, and makes all cells. `tolerances`: one for each sample, or none.
@@ -103,13 +125,14 @@ class LiveField {
   LiveField& operator=(LiveField&&) noexcept;
   ~LiveField();
 
-  /// Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay).
-  /// Equal samples make no cell anew.
-  Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {});
-  /// Replaces one sample.
+  /// Replaces the samples of a window, row by row, and their tolerances and all channels, if the field has them (none:
+  /// they stay). Equal samples make no cell anew.
+  Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {},
+                      std::span<const std::span<const float>> channels = {});
+  /// Replaces the height of one sample.
   Result<void> set(int col, int row, float height);
   /// Moves the field over the ground, so many columns east and rows down; the samples that it then still covers stay
-  /// and are not copied. The others are voids until an update, without a tolerance of their own.
+  /// and are not copied. The others are voids until an update, without a tolerance of their own, with channels of 0.
   Result<void> scroll(int cols, int rows);
 
   /// The cells that changed after the version `since`, those that became empty included; after 0 all that have a
@@ -121,6 +144,8 @@ class LiveField {
   /// The largest error of a cell.
   double max_error() const;
   std::uint64_t triangle_count() const;
+  /// The state of the budget's search; meaningless without one.
+  std::int64_t level() const;
   std::uint32_t slot_count() const;
 
   /// A copy of the current samples, row by row.

@@ -1,14 +1,13 @@
 // Combined errors of several fields, for fitting: heights and channels.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "base/norm.h"
 #include "base/point.h"
 #include "scarp/options.h"
 
@@ -29,11 +28,5 @@ struct FitNorm {
   /// on any thread, about triangles whose corners are samples, positive. Its result is final.
   std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
 };
-
-/// The norm of several errors, which are added one by one: its value once `error` is added. REQUIRES: error >= 0.
-inline double add_to_norm_of(Norm norm, double so_far, double error) {
-  if (norm == Norm::kSum) return so_far + error;
-  return norm == Norm::kMax ? std::max(so_far, error) : std::sqrt(so_far * so_far + error * error);
-}
 
 }  // namespace scarp

@@ -1,21 +1,28 @@
+#include "grid/edge_line.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "scarp/options.h"
+#include "base/norm.h"
 
 namespace scarp {
 
 namespace {
 
 constexpr double kShare = 1 - 0x1p-9;
-constexpr std::size_t kMostSteps = 8192;
+constexpr std::size_t kMostSteps = 8192, kMostStepsOfSeveral = 256;
 
 class EdgeLine {
  public:
-  EdgeLine(std::span<const float> heights, double tolerance, std::span<const double> tolerances)
-      : heights_(heights), tolerance_(tolerance), tolerances_(tolerances), before_(heights.size(), kUnseen) {}
+  EdgeLine(std::span<const EdgeField> fields, Norm norm, double tolerance, std::span<const double> tolerances)
+      : fields_(fields),
+        norm_(norm),
+        heights_(fields.front().values),
+        tolerance_(tolerance),
+        tolerances_(tolerances),
+        before_(heights_.size(), kUnseen) {}
 
   std::vector<std::int32_t> find() {
     for (std::size_t first = 0; first < heights_.size();) {
@@ -37,7 +44,12 @@ class EdgeLine {
     std::vector<std::size_t> level{first}, next;
     while (last != first && before_[last] == kUnseen) {
       next.clear();
-      for (const std::size_t i : level) look_from(i, last, next);
+      for (const std::size_t i : level) {
+        if (fields_.size() == 1 && fields_.front().scale == 1)
+          look_from(i, last, next);
+        else
+          look_from_norm(i, last, next);
+      }
       std::sort(next.begin(), next.end());
       level.swap(next);
     }
@@ -63,6 +75,42 @@ class EdgeLine {
     }
   }
 
+  /// No norm is smaller than one of its errors: each field alone bounds the slopes.
+  void look_from_norm(std::size_t i, std::size_t last, std::vector<std::size_t>& next) {
+    struct Slopes {
+      double low = -std::numeric_limits<double>::infinity(), high = -low;
+    };
+    std::vector<Slopes> slopes(fields_.size());
+    const auto is_open = [&] {
+      return std::all_of(slopes.begin(), slopes.end(), [](const Slopes& s) { return s.low <= s.high; });
+    };
+    for (std::size_t j = i + 1, end = std::min(last, i + kMostStepsOfSeveral); j <= end && is_open(); ++j) {
+      if (before_[j] == kUnseen && passes(i, j)) {
+        before_[j] = static_cast<std::int32_t>(i);
+        next.push_back(j);
+      }
+      const double steps = static_cast<double>(j - i);
+      for (std::size_t f = 0; f < fields_.size(); ++f) {
+        const auto& [values, scale] = fields_[f];
+        if (scale == 0) continue;
+        const double rise = double{values[j]} - double{values[i]}, room = bound(j) / scale;
+        slopes[f].low = std::max(slopes[f].low, (rise - room) / steps);
+        slopes[f].high = std::min(slopes[f].high, (rise + room) / steps);
+      }
+    }
+  }
+
+  bool passes(std::size_t a, std::size_t b) const {
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const double error = chord_error(fields_, norm_, static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
+                                       static_cast<std::int32_t>(i));
+      if (error > bound(i)) return false;
+    }
+    return true;
+  }
+
+  std::span<const EdgeField> fields_;
+  Norm norm_;
   std::span<const float> heights_;
   double tolerance_;
   std::span<const double> tolerances_;
@@ -72,9 +120,25 @@ class EdgeLine {
 
 }  // namespace
 
+double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i) {
+  double total = 0;
+  for (const auto& [values, scale] : fields) {
+    const double from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
+    const double line = from + (to - from) * (static_cast<double>(i - a) / (b - a));
+    total = add_to_norm_of(norm, total, scale * std::abs(line - double{values[static_cast<std::size_t>(i)]}));
+  }
+  return total;
+}
+
+std::vector<std::int32_t> simplify_edge(std::span<const EdgeField> fields, Norm norm, double tolerance,
+                                        std::span<const double> tolerances) {
+  return EdgeLine(fields, norm, tolerance, tolerances).find();
+}
+
 std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double tolerance,
                                         std::span<const double> tolerances) {
-  return EdgeLine(heights, tolerance, tolerances).find();
+  const EdgeField field{heights};
+  return simplify_edge(std::span(&field, 1), Norm::kMax, tolerance, tolerances);
 }
 
 }  // namespace scarp

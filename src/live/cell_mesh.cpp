@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "grid/edge_line.h"
 #include "scarp/simplify.h"
 
 namespace scarp::live {
@@ -18,26 +20,32 @@ class BorderRows {
  public:
   /// `first`: index of the border's first sample; `step`: to the next one; `across`: to the other side.
   BorderRows(const CellSamples& samples, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t across,
-             std::int32_t count) {
+             std::int32_t count)
+      : channels_(samples.channels.size()) {
     for (std::int32_t k = 0; k < count; ++k, first += step) {
-      heights_.push_back(samples.heights[std::size_t(first)]);
-      if (!samples.tolerances.empty()) bounds_.push_back(samples.tolerances[std::size_t(first)]);
+      const auto at = std::size_t(first);
+      heights_.push_back(samples.heights[at]);
+      if (!samples.tolerances.empty()) bounds_.push_back(samples.tolerances[at]);
+      for (std::size_t c = 0; c < channels_.size(); ++c) channels_[c].push_back(samples.channels[c][at]);
       for (std::size_t side = 0; side < 2; ++side)
         valid_[side].push_back(!std::isnan(samples.heights[std::size_t(side == 0 ? first - across : first + across)]));
     }
   }
 
   /// Fewest vertices between those that both cells need where voids begin or end next to the border.
-  std::vector<std::int32_t> simplify(double tolerance) {
+  std::vector<std::int32_t> simplify(double tolerance, const CellRules& rules) {
     for (double& bound : bounds_) bound = std::min(bound, tolerance);
     std::vector<std::int32_t> line;
     std::size_t begin = 0;
     for (std::size_t k = 1; k < heights_.size(); ++k) {
       if (k + 1 < heights_.size() && !is_corner(k)) continue;
       const std::size_t count = k - begin + 1;
+      std::vector<EdgeField> fields{{std::span(heights_).subspan(begin, count), rules.height_scale}};
+      for (std::size_t c = 0; c < channels_.size(); ++c)
+        fields.push_back({std::span(channels_[c]).subspan(begin, count), rules.channel_scales[c]});
       const std::span<const double> bounds =
           bounds_.empty() ? std::span<const double>() : std::span(bounds_).subspan(begin, count);
-      for (const std::int32_t at : simplify_edge(std::span(heights_).subspan(begin, count), tolerance, bounds)) {
+      for (const std::int32_t at : simplify_edge(fields, rules.norm, tolerance, bounds)) {
         const std::int32_t vertex = at + static_cast<std::int32_t>(begin);
         if (line.empty() || line.back() < vertex) line.push_back(vertex);
       }
@@ -56,18 +64,21 @@ class BorderRows {
 
   std::vector<float> heights_;
   std::vector<double> bounds_;
+  std::vector<std::vector<float>> channels_;
   std::array<std::vector<std::uint8_t>, 2> valid_;
 };
 
-EdgeVertices find_borders(const CellSamples& samples, double tolerance) {
+EdgeVertices find_borders(const CellSamples& samples, const CellBounds& bounds, const CellRules& rules) {
   const std::ptrdiff_t row = samples.cell.cols() + 2, east = samples.cell.cols(), south = samples.cell.rows() * row;
-  const auto along_row = [&](std::ptrdiff_t first) {
-    return BorderRows(samples, first, 1, row, samples.cell.cols()).simplify(tolerance);
+  const auto simplify = [&](std::size_t side, BorderRows rows) {
+    return rows.simplify(std::max(0.0, bounds.borders[side] - rules.sample_rounding), rules);
   };
+  const auto along_row = [&](std::ptrdiff_t first) { return BorderRows(samples, first, 1, row, samples.cell.cols()); };
   const auto along_column = [&](std::ptrdiff_t first) {
-    return BorderRows(samples, first, row, 1, samples.cell.rows()).simplify(tolerance);
+    return BorderRows(samples, first, row, 1, samples.cell.rows());
   };
-  return {along_row(row + 1), along_row(south + 1), along_column(row + 1), along_column(row + east)};
+  return {simplify(0, along_row(row + 1)), simplify(1, along_row(south + 1)), simplify(2, along_column(row + 1)),
+          simplify(3, along_column(row + east))};
 }
 
 std::vector<float> crop(std::span<const float> grown, std::int32_t cols, std::int32_t rows) {
@@ -96,8 +107,8 @@ bool has_surface(std::span<const float> heights, std::int32_t cols, std::int32_t
 
 }  // namespace
 
-Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const LiveOptions& options,
-                           double sample_rounding) {
+Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const CellBounds& bounds,
+                           const CellRules& rules) {
   LiveCell cell;
   cell.place = place;
   const std::int32_t cols = samples.cell.cols(), rows = samples.cell.rows();
@@ -107,23 +118,31 @@ Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const Liv
   field.samples = heights.data();
   field.cols = cols;
   field.rows = rows;
-  field.sample_rounding = sample_rounding;
+  field.sample_rounding = rules.sample_rounding;
+  field.height_scale = rules.height_scale;
   field.frame.affine = {double(samples.cell.west - place.col), 1, 0, double(place.row - samples.cell.north), 0, -1};
+  std::vector<std::vector<float>> channels;
+  for (const std::span<const float> channel : samples.channels) channels.push_back(crop(channel, cols, rows));
+  for (std::size_t k = 0; k < channels.size(); ++k)
+    field.channels.push_back({channels[k].data(), rules.channel_scales[k]});
   std::vector<float> tolerances;
   if (!samples.tolerances.empty()) tolerances = crop(samples.tolerances, cols, rows);
   SimplifyOptions asked;
-  asked.goals.max_error = options.max_error;
+  asked.goals.max_error = bounds.inside;
+  asked.goals.norm = rules.norm;
   asked.tolerances.values = tolerances;
-  asked.quality.effort = options.effort;
+  asked.quality.effort = rules.effort;
   asked.domain.border.is_locked = true;
-  asked.domain.border.vertices = find_borders(samples, std::max(0.0, options.max_error - sample_rounding));
+  asked.domain.border.vertices = find_borders(samples, bounds, rules);
   asked.run.threads = 1;
-  SCARP_TRY(const auto& made, scarp::simplify(field, asked));
+  SCARP_TRY(auto&& made, scarp::simplify(field, asked));
   for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
     for (const double coordinate : made.mesh.vertex(v)) cell.positions.push_back(static_cast<float>(coordinate));
   }
+  cell.channels = std::move(made.mesh.channels);
   cell.triangles.assign(made.mesh.triangles.begin(), made.mesh.triangles.end());
-  cell.max_error = made.measurement.max_error;
+  const bool has_norm = !channels.empty() || rules.height_scale != 1;
+  cell.max_error = has_norm ? made.combined_max_error : made.measurement.max_error;
   return cell;
 }
 

@@ -9,23 +9,34 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "live/bound_ladder.h"
 #include "live/sample_ring.h"
 #include "scarp/live.h"
 #include "scarp/result.h"
 
 namespace scarp::live {
 
-/// Samples of a cell and one more on each side, row by row; those outside the field are NaN.
+/// Samples of a cell and one more on each side, row by row; heights outside the field are NaN.
 struct CellSamples {
   Area cell;                          ///< clipped to the field
   std::span<const float> heights;     ///< those in cell.grown(1)
   std::span<const float> tolerances;  ///< those in cell.grown(1), or empty
+  std::vector<std::span<const float>> channels;
+};
+
+/// What all cells of a field have in common.
+struct CellRules {
+  Effort effort = Effort::kFast;
+  Norm norm = Norm::kSum;
+  double sample_rounding = 0, height_scale = 1;
+  std::vector<double> channel_scales;
 };
 
 /// `place`: the first sample of the whole cell, which the field may clip. Slot and version are not set. Fails as
 /// simplify() does.
-Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const LiveOptions& options,
-                           double sample_rounding);
+Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const CellBounds& bounds,
+                           const CellRules& rules);
 
 }  // namespace scarp::live

@@ -7,64 +7,36 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/caught.h"
 #include "base/parallel.h"
+#include "live/bound_ladder.h"
 #include "live/cell_lattice.h"
 #include "live/cell_mesh.h"
-#include "live/sample_ring.h"
+#include "live/checks.h"
+#include "live/field_samples.h"
 #include "live/whole_mesh.h"
 #include "scarp/live.h"
 
 namespace scarp {
 
 using live::Area;
+using live::BoundLadder;
 using live::CellLattice;
+using live::CellRules;
 using live::CellSamples;
-using live::SampleRing;
+using live::FieldSamples;
+using live::LevelSearch;
+using live::Patch;
 
 namespace {
 
-constexpr std::int32_t kFarthest = 1 << 30;
-constexpr float kNoBound = std::numeric_limits<float>::infinity();
-
-bool is_far(std::int64_t place) { return place < -kFarthest || place > kFarthest; }
-
 Area area_of(SampleAt place, int cols, int rows) {
   return {place.col, place.row, place.col + cols - 1, place.row + rows - 1};
-}
-
-Result<void> check(const HeightField& field, const LiveOptions& options, std::size_t tolerances) {
-  const auto refuse = [](std::string why) { return fail(ErrorKind::kUsage, "a live field " + std::move(why)); };
-  if (field.samples == nullptr || field.source != nullptr) return refuse("needs its samples in memory");
-  if (!field.channels.empty()) return refuse("has heights only: omit the channels");
-  if (!field.frame.is_affine()) return refuse("needs an affine frame");
-  if (field.cols < 2 || field.rows < 2)
-    return refuse(fmt::format("needs 2 × 2 samples at least, not {} × {}", field.cols, field.rows));
-  if (!(options.max_error >= 0) || !std::isfinite(options.max_error))
-    return refuse(fmt::format("needs a finite max error of at least 0, not {}", options.max_error));
-  if (options.effort == Effort::kMax) return refuse("has efforts up to high: max takes seconds for a cell");
-  constexpr int kLeast = 8, kMost = 254;
-  if (options.cell != 0 && (options.cell < kLeast || options.cell > kMost))
-    return refuse(fmt::format("has cells of {} to {} samples, not {}", kLeast, kMost, options.cell));
-  const std::size_t samples = std::size_t(field.cols) * std::size_t(field.rows);
-  if (tolerances != 0 && tolerances != samples)
-    return refuse(fmt::format("of {} samples cannot have {} tolerances: give one for each", samples, tolerances));
-  const auto reaches = [](std::int32_t place, int count) {
-    return is_far(place) || is_far(std::int64_t{place} + count);
-  };
-  if (reaches(options.place.col, field.cols) || reaches(options.place.row, field.rows))
-    return refuse("lies within 2^30 samples of the place 0, 0");
-  const std::array<double, 6>& to = field.frame.affine;
-  const double reach = std::abs(to[0]) + std::abs(to[3]) + (std::abs(to[1]) + std::abs(to[4])) * field.cols +
-                       (std::abs(to[2]) + std::abs(to[5])) * field.rows;
-  const double step = std::min(std::hypot(to[1], to[4]), std::hypot(to[2], to[5]));
-  if (field.frame.determinant() == 0 || !(step > reach * std::numeric_limits<double>::epsilon()))
-    return refuse("needs a frame whose samples lie apart in x and y: move it nearer to 0, or give larger cells");
-  return {};
 }
 
 /// bench/performance.md, "Live fields".
@@ -73,11 +45,18 @@ int side_of(const LiveOptions& options) {
   return options.effort == Effort::kFast ? 32 : 64;
 }
 
-Result<void> check_tolerances(std::span<const float> tolerances) {
-  const auto bad = std::find_if(tolerances.begin(), tolerances.end(), [](float bound) { return !(bound >= 0); });
-  if (bad == tolerances.end()) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("tolerance {} (counted from 0) is {}: give 0 or more", bad - tolerances.begin(), *bad));
+/// Where the search for a budget starts: coarse, since a fine mesh costs more.
+std::int64_t first_level(const HeightField& field, const BoundLadder& ladder, double max_error) {
+  const HeightRange range = height_range(field);
+  constexpr double kParts = 64;
+  const double start = (range.max - range.min) / kParts;
+  return ladder.level_of(start > max_error ? start : max_error > 0 ? max_error : 1);
+}
+
+CellRules rules_of(const HeightField& field, const LiveOptions& options) {
+  CellRules rules{options.effort, options.norm, field.sample_rounding, field.height_scale, {}};
+  for (const Channel& channel : field.channels) rules.channel_scales.push_back(channel.scale);
+  return rules;
 }
 
 float height_or_void(float height, const std::optional<float>& nodata) {
@@ -90,26 +69,30 @@ struct LiveField::Impl {
   /// The state that readers see.
   struct Shown {
     Area area;
-    std::uint64_t version = 0;
+    std::int64_t level = 0;
+    std::uint64_t version = 0, triangles = 0;
     std::vector<std::uint64_t> versions;  // by slot, of its cell
     std::vector<std::shared_ptr<const LiveCell>> cells;
   };
   struct Writer {
     bool is_busy = false;
   };
-  using Made = std::vector<std::shared_ptr<LiveCell>>;
+  /// What a change makes: cells by slot, and the level of their bounds.
+  struct Made {
+    std::int64_t level = 0;
+    std::map<std::uint32_t, std::shared_ptr<LiveCell>> cells;
+  };
 
   Impl(const HeightField& field, const LiveOptions& asked, bool has_tolerances)
       : options(asked),
         frame(field.frame),
-        sample_rounding(field.sample_rounding),
         nodata(field.nodata),
-        area(area_of(asked.place, field.cols, field.rows)),
+        rules(rules_of(field, asked)),
         lattice(side_of(asked), field.cols, field.rows),
-        heights(field.cols, field.rows, std::numeric_limits<float>::quiet_NaN()) {
-    if (has_tolerances) tolerances.emplace(field.cols, field.rows, kNoBound);
+        ladder(lattice, asked.max_error, asked.max_triangles.has_value()),
+        samples(area_of(asked.place, field.cols, field.rows), has_tolerances, field.channels.size()) {
     shown.with([&](Shown& now) {
-      now.area = area;
+      now.area = samples.area();
       const std::size_t slots = lattice.slot_count();
       now.versions.resize(slots);
       for (std::uint32_t slot = 0; slot < slots; ++slot) {
@@ -149,222 +132,172 @@ struct LiveField::Impl {
     return moved;
   }
 
-  Result<LiveCell> make_cell(SampleAt at) const {
-    const Area whole = lattice.area_of(at), cell = whole.clipped(area), grown = cell.grown(1);
-    const std::size_t count = std::size_t(grown.cols()) * std::size_t(grown.rows());
-    std::vector<float> samples(count), bounds(tolerances ? count : 0);
-    heights.read(grown, area, samples.data());
-    if (tolerances) tolerances->read(grown, area, bounds.data());
-    SCARP_TRY(LiveCell made,
-              live::make_cell({cell, samples, bounds}, {whole.west, whole.north}, options, sample_rounding));
+  Result<LiveCell> make_cell(SampleAt at, std::int64_t level) const {
+    const Area whole = lattice.area_of(at), cell = whole.clipped(samples.area());
+    const Patch around = samples.read(cell.grown(1));
+    CellSamples read{cell, around.layers[FieldSamples::kHeights], {}, {}};
+    if (samples.has_tolerances()) read.tolerances = around.layers[samples.tolerances()];
+    for (std::size_t k = 0; k < samples.channel_count(); ++k)
+      read.channels.push_back(around.layers[samples.channel(k)]);
+    SCARP_TRY(LiveCell made, live::make_cell(read, {whole.west, whole.north}, ladder.bounds_of(at, level), rules));
     made.slot = lattice.slot_of(at);
     return made;
   }
 
-  Result<Made> make_cells(const std::vector<SampleAt>& dirty) const {
-    Made made(dirty.size());
-    std::vector<std::optional<Error>> errors(dirty.size());
-    const auto make = [&](std::size_t k) {
-      Result<LiveCell> cell = make_cell(dirty[k]);
-      if (cell)
-        made[k] = std::make_shared<LiveCell>(std::move(*cell));
-      else
-        errors[k] = std::move(cell.error());
-    };
-    parallel_for(dirty.size(), options.threads, make);
-    for (std::optional<Error>& error : errors) {
-      if (error) return tl::unexpected(std::move(*error));
+  /// Makes cells at the level of `made`, which then has them.
+  Result<void> make_cells(const std::vector<SampleAt>& dirty, Made& made) const {
+    std::vector<Result<LiveCell>> cells(dirty.size());
+    parallel_for(dirty.size(), options.threads, [&](std::size_t k) { cells[k] = make_cell(dirty[k], made.level); });
+    for (Result<LiveCell>& cell : cells) {
+      if (!cell) return tl::unexpected(std::move(cell.error()));
+      made.cells[cell->slot] = std::make_shared<LiveCell>(std::move(*cell));
     }
-    return made;
-  }
-
-  void show(Made made) {
-    shown.with([&](Shown& now) {
-      now.area = area;
-      ++now.version;
-      for (std::shared_ptr<LiveCell>& cell : made) {
-        cell->version = now.versions[cell->slot] = now.version;
-        now.cells[cell->slot] = std::move(cell);
-      }
-    });
-  }
-
-  /// Samples of a window, and with them the area whose cells change.
-  struct Patch {
-    Area area;
-    std::vector<float> heights, tolerances;  // the new ones, then the old ones
-    Area changed;                            // samples, and the neighbours of those that became valid or void
-  };
-
-  Patch plan(const LiveWindow& window, std::span<const float> new_heights, std::span<const float> new_bounds) const {
-    Patch patch;
-    patch.area = {area.west + window.col, area.north + window.row, area.west + window.col + window.cols - 1,
-                  area.north + window.row + window.rows - 1};
-    const std::size_t count = new_heights.size();
-    std::vector<float> old_heights(count), old_bounds(new_bounds.size());
-    heights.read(patch.area, area, old_heights.data());
-    if (!new_bounds.empty()) tolerances->read(patch.area, area, old_bounds.data());
-    patch.heights.reserve(count);
-    for (const float height : new_heights) patch.heights.push_back(height_or_void(height, nodata));
-    patch.tolerances.assign(new_bounds.begin(), new_bounds.end());
-    Area turned;
-    std::size_t k = 0;
-    for (std::int32_t row = patch.area.north; row <= patch.area.south; ++row) {
-      for (std::int32_t col = patch.area.west; col <= patch.area.east; ++col, ++k) {
-        const float now = patch.heights[k], then = old_heights[k];
-        const bool is_void = std::isnan(now), was_void = std::isnan(then);
-        if (is_void != was_void) turned.include(col, row);
-        const bool is_same = now == then || (is_void && was_void);
-        if (!is_same || (!new_bounds.empty() && patch.tolerances[k] != old_bounds[k])) patch.changed.include(col, row);
-      }
-    }
-    if (!turned.is_empty()) {
-      const Area near = turned.grown(1).clipped(area);
-      patch.changed.include(near.west, near.north);
-      patch.changed.include(near.east, near.south);
-    }
-    return patch;
-  }
-
-  /// The patch then holds the samples of before.
-  void swap(Patch& patch) {
-    std::vector<float> old(patch.heights.size());
-    heights.read(patch.area, area, old.data());
-    heights.write(patch.area, patch.heights);
-    patch.heights.swap(old);
-    if (patch.tolerances.empty()) return;
-    tolerances->read(patch.area, area, old.data());
-    tolerances->write(patch.area, patch.tolerances);
-    patch.tolerances.swap(old);
-  }
-
-  Result<void> update(const LiveWindow& window, std::span<const float> new_heights, std::span<const float> new_bounds) {
-    Patch patch = plan(window, new_heights, new_bounds);
-    if (patch.changed.is_empty()) return {};
-    swap(patch);
-    Result<Made> made;
-    try {
-      made = make_cells(lattice.cells_with(patch.changed, area));
-    } catch (...) {
-      swap(patch);
-      throw;
-    }
-    if (!made) {
-      swap(patch);
-      return tl::unexpected(std::move(made.error()));
-    }
-    show(std::move(*made));
     return {};
   }
 
-  /// Cells whose area, or what their borders read around it, is cut differently.
-  std::vector<SampleAt> list_recut(const Area& before) const {
-    std::vector<SampleAt> recut;
-    for (const SampleAt cell : lattice.cells_of(area)) {
-      const Area reads = lattice.area_of(cell).grown(1), now = reads.clipped(area), then = reads.clipped(before);
-      if (now != then) recut.push_back(cell);
+  /// Triangles of the field once it has these cells, and the largest error.
+  std::pair<std::uint64_t, double> count(const Made& made) const {
+    return shown.with([&](const Shown& now) {
+      std::uint64_t triangles = now.triangles;
+      double error = 0;
+      for (const auto& [slot, cell] : made.cells)
+        triangles += cell->triangle_count() - now.cells[slot]->triangle_count();
+      for (const auto& cell : now.cells) error = std::max(error, made.cells.contains(cell->slot) ? 0 : cell->max_error);
+      for (const auto& [slot, cell] : made.cells) error = std::max(error, cell->max_error);
+      return std::pair(triangles, error);
+    });
+  }
+
+  /// Moves to a level that keeps the budget, and makes the cells whose bounds it changes. `dirty`: cells whose samples
+  /// changed, which `made` has. `is_settled`: stays at a level with fewer triangles.
+  Result<void> keep_budget(const std::vector<SampleAt>& dirty, bool is_settled, Made& made) const {
+    if (!options.max_triangles) return {};
+    const std::int64_t before = made.level;
+    const std::vector<SampleAt> all = lattice.cells_of(samples.area());
+    LevelSearch search(*options.max_triangles, ladder.step());
+    for (;;) {
+      const auto [triangles, error] = count(made);
+      const auto next = search.next(made.level, triangles, is_settled || error == 0 || ladder.is_lowest(made.level));
+      if (!next) break;
+      if (*next > made.level && ladder.is_highest(made.level))
+        return fail(ErrorKind::kUsage,
+                    fmt::format("the live field needs {} triangles with any bound, more than its budget of {}",
+                                triangles, *options.max_triangles));
+      std::vector<SampleAt> moved;
+      for (const SampleAt cell : all) {
+        if (ladder.bounds_of(cell, made.level) != ladder.bounds_of(cell, *next)) moved.push_back(cell);
+      }
+      made.level = *next;
+      SCARP_RETURN_IF_ERROR(make_cells(moved, made));
     }
-    return recut;
+    std::vector<bool> is_dirty(lattice.slot_count());
+    for (const SampleAt cell : dirty) is_dirty[lattice.slot_of(cell)] = true;
+    for (const SampleAt cell : all) {
+      const std::uint32_t slot = lattice.slot_of(cell);
+      if (!is_dirty[slot] && ladder.bounds_of(cell, before) == ladder.bounds_of(cell, made.level))
+        made.cells.erase(slot);
+    }
+    return {};
   }
 
   /// Slots of no cell any more become empty.
   void add_emptied(Made& made) const {
     std::vector<bool> is_used(lattice.slot_count());
-    for (const SampleAt cell : lattice.cells_of(area)) is_used[lattice.slot_of(cell)] = true;
+    for (const SampleAt cell : lattice.cells_of(samples.area())) is_used[lattice.slot_of(cell)] = true;
     shown.with([&](const Shown& now) {
       for (std::uint32_t slot = 0; slot < is_used.size(); ++slot) {
         if (is_used[slot] || now.cells[slot]->triangles.empty()) continue;
-        made.push_back(std::make_shared<LiveCell>());
-        made.back()->slot = slot;
-        made.back()->place = now.cells[slot]->place;
+        LiveCell empty;
+        empty.slot = slot;
+        empty.place = now.cells[slot]->place;
+        made.cells[slot] = std::make_shared<LiveCell>(std::move(empty));
       }
     });
   }
 
-  Result<void> scroll(std::int32_t by_cols, std::int32_t by_rows) {
-    const Area before = area,
-               after{area.west + by_cols, area.north + by_rows, area.east + by_cols, area.south + by_rows};
-    struct Left {
-      Area area;
-      std::vector<float> heights, tolerances;
-    };
-    std::vector<Left> all_left;
-    for (const Area& part : before.beyond(after)) {
-      if (part.is_empty()) continue;
-      Left left{part, std::vector<float>(std::size_t(part.cols()) * std::size_t(part.rows())), {}};
-      heights.read(part, before, left.heights.data());
-      left.tolerances.resize(tolerances ? left.heights.size() : 0);
-      if (tolerances) tolerances->read(part, before, left.tolerances.data());
-      all_left.push_back(std::move(left));
-    }
-    // Samples that enter are stored where those that leave were.
-    for (const Left& left : all_left) {
-      heights.clear(left.area);
-      if (tolerances) tolerances->clear(left.area);
-    }
-    area = after;
-    const auto put_back = [&] {
-      area = before;
-      for (const Left& left : all_left) {
-        heights.write(left.area, left.heights);
-        if (tolerances) tolerances->write(left.area, left.tolerances);
+  void show(Made made) {
+    shown.with([&](Shown& now) {
+      now.area = samples.area();
+      now.level = made.level;
+      ++now.version;
+      for (auto& [slot, cell] : made.cells) {
+        now.triangles += cell->triangle_count() - now.cells[slot]->triangle_count();
+        cell->version = now.versions[slot] = now.version;
+        now.cells[slot] = std::move(cell);
       }
-    };
-    Result<Made> made;
+    });
+  }
+
+  /// Makes the cells of a change and shows them. If one cannot be made, `undo` restores the samples.
+  template <class Undo>
+  Result<void> finish(const std::vector<SampleAt>& dirty, bool is_moved, const Undo& undo) {
+    Made made;
+    Result<void> done;
     try {
-      made = make_cells(list_recut(before));
-      if (made) add_emptied(*made);
+      made.level = shown.with([](const Shown& now) { return now.level; });
+      done = make_cells(dirty, made);
+      if (done && is_moved) add_emptied(made);
+      if (done) done = keep_budget(dirty, false, made);
     } catch (...) {
-      put_back();
+      undo();
       throw;
     }
-    if (!made) {
-      put_back();
-      return tl::unexpected(std::move(made.error()));
+    if (!done) {
+      undo();
+      return done;
     }
-    show(std::move(*made));
+    show(std::move(made));
     return {};
+  }
+
+  Patch patch_of(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances,
+                 std::span<const std::span<const float>> channels) const {
+    const Area& field = samples.area();
+    Patch patch{area_of({field.west + window.col, field.north + window.row}, window.cols, window.rows), {}};
+    patch.layers.resize(samples.layer_count());
+    for (const float height : heights) patch.layers[FieldSamples::kHeights].push_back(height_or_void(height, nodata));
+    if (!tolerances.empty()) patch.layers[samples.tolerances()].assign(tolerances.begin(), tolerances.end());
+    for (std::size_t k = 0; k < channels.size(); ++k)
+      patch.layers[samples.channel(k)].assign(channels[k].begin(), channels[k].end());
+    return patch;
+  }
+
+  Result<void> update(Patch patch) {
+    SCARP_RETURN_IF_ERROR(samples.check(patch));
+    const Area changed = samples.find_changes(patch);
+    if (changed.is_empty()) return {};
+    samples.swap(patch);
+    return finish(lattice.cells_with(changed, samples.area()), false, [&] { samples.swap(patch); });
+  }
+
+  /// Cells whose area, or what their borders read around it, is cut differently.
+  std::vector<SampleAt> list_recut(const Area& before) const {
+    std::vector<SampleAt> recut;
+    for (const SampleAt cell : lattice.cells_of(samples.area())) {
+      const Area reads = lattice.area_of(cell).grown(1), now = reads.clipped(samples.area()),
+                 then = reads.clipped(before);
+      if (now != then) recut.push_back(cell);
+    }
+    return recut;
+  }
+
+  Result<void> scroll(std::int32_t by_cols, std::int32_t by_rows) {
+    const Area before = samples.area();
+    const auto left = samples.move(before.moved(by_cols, by_rows));
+    return finish(list_recut(before), true, [&] { samples.move_back(before, left); });
   }
 
   const LiveOptions options;
   const Frame frame;  // the field's when it was made
-  const double sample_rounding;
   const std::optional<float> nodata;
-  Area area;
+  const CellRules rules;
   const CellLattice lattice;
-  SampleRing heights;
-  std::optional<SampleRing> tolerances;
+  const BoundLadder ladder;
+  FieldSamples samples;
   Shared<Writer> writer;
-  mutable Mutex samples;  // held by a change, and while they are copied
+  mutable Mutex sampling;  // held by a change, and while samples are copied
   mutable Shared<Shown> shown;
 };
-
-namespace {
-
-Result<void> check_window(const LiveWindow& window, const Area& field, std::size_t heights, std::size_t tolerances,
-                          bool has_tolerances) {
-  const auto ends = [](int first, int count, int of) {
-    return first >= 0 && count > 0 && std::int64_t{first} + count <= of;
-  };
-  if (!ends(window.col, window.cols, field.cols()) || !ends(window.row, window.rows, field.rows()))
-    return fail(ErrorKind::kUsage,
-                fmt::format("the window of {} columns and {} rows at column {}, row {} is not within the live field of "
-                            "{} columns and {} rows",
-                            window.cols, window.rows, window.col, window.row, field.cols(), field.rows()));
-  const std::size_t count = std::size_t(window.cols) * std::size_t(window.rows);
-  if (heights != count)
-    return fail(ErrorKind::kUsage, fmt::format("the window of {} columns and {} rows needs {} heights, not {}",
-                                               window.cols, window.rows, count, heights));
-  if (tolerances == 0) return {};
-  if (!has_tolerances)
-    return fail(ErrorKind::kUsage, "the live field was made without tolerances: give some when it is made");
-  if (tolerances == count) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("the window of {} columns and {} rows needs {} tolerances, or none, not {}", window.cols,
-                          window.rows, count, tolerances));
-}
-
-}  // namespace
 
 LiveField::LiveField(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LiveField::LiveField(LiveField&&) noexcept = default;
@@ -373,21 +306,24 @@ LiveField::~LiveField() = default;
 
 Result<LiveField> LiveField::create(const HeightField& field, const LiveOptions& options,
                                     std::span<const float> tolerances) try {
-  SCARP_RETURN_IF_ERROR(check(field, options, tolerances.size()));
-  SCARP_RETURN_IF_ERROR(check_tolerances(tolerances));
+  SCARP_RETURN_IF_ERROR(live::check_field(field, options, tolerances));
   auto impl = std::make_unique<Impl>(field, options, !tolerances.empty());
-  std::vector<float> row;
-  for (int at = 0; at < field.rows; ++at) {
-    const float* const samples = field.samples + std::ptrdiff_t{at} * field.cols;
-    row.clear();
-    for (int col = 0; col < field.cols; ++col) row.push_back(height_or_void(samples[col], field.nodata));
-    const std::int32_t place = impl->area.north + at;
-    const Area area{impl->area.west, place, impl->area.east, place};
-    impl->heights.write(area, row);
-    if (impl->tolerances)
-      impl->tolerances->write(area, tolerances.subspan(std::size_t(at) * std::size_t(field.cols), row.size()));
+  for (int row = 0; row < field.rows; ++row) {
+    const auto row_of = [&](const float* values) {
+      return std::span(values + std::ptrdiff_t{row} * field.cols, std::size_t(field.cols));
+    };
+    std::vector<std::span<const float>> channels;
+    for (const Channel& channel : field.channels) channels.push_back(row_of(channel.samples));
+    Patch patch = impl->patch_of({0, row, field.cols, 1}, row_of(field.samples),
+                                 tolerances.empty() ? tolerances : row_of(tolerances.data()), channels);
+    SCARP_RETURN_IF_ERROR(impl->samples.check(patch));
+    impl->samples.swap(patch);
   }
-  SCARP_TRY(auto&& made, impl->make_cells(impl->lattice.cells_of(impl->area)));
+  Impl::Made made;
+  made.level = options.level ? *options.level : first_level(field, impl->ladder, options.max_error);
+  const std::vector<SampleAt> all = impl->lattice.cells_of(impl->samples.area());
+  SCARP_RETURN_IF_ERROR(impl->make_cells(all, made));
+  SCARP_RETURN_IF_ERROR(impl->keep_budget(all, options.level.has_value(), made));
   impl->show(std::move(made));
   return LiveField(std::move(impl));
 } catch (...) {
@@ -395,14 +331,13 @@ Result<LiveField> LiveField::create(const HeightField& field, const LiveOptions&
 }
 
 Result<void> LiveField::update(const LiveWindow& window, std::span<const float> heights,
-                               std::span<const float> tolerances) try {
+                               std::span<const float> tolerances,
+                               std::span<const std::span<const float>> channels) try {
   const Impl::Claim claim(*impl_);
   SCARP_RETURN_IF_ERROR(claim.check());
-  SCARP_RETURN_IF_ERROR(
-      check_window(window, impl_->area, heights.size(), tolerances.size(), impl_->tolerances.has_value()));
-  SCARP_RETURN_IF_ERROR(check_tolerances(tolerances));
-  const std::lock_guard<Mutex> lock(impl_->samples);
-  return impl_->update(window, heights, tolerances);
+  SCARP_RETURN_IF_ERROR(live::check_window(window, impl_->samples, heights.size(), tolerances, channels));
+  const std::lock_guard<Mutex> lock(impl_->sampling);
+  return impl_->update(impl_->patch_of(window, heights, tolerances, channels));
 } catch (...) {
   return caught(ErrorKind::kMemory, "update a live field");
 }
@@ -412,17 +347,9 @@ Result<void> LiveField::set(int col, int row, float height) { return update({col
 Result<void> LiveField::scroll(int cols, int rows) try {
   const Impl::Claim claim(*impl_);
   SCARP_RETURN_IF_ERROR(claim.check());
-  const Area& area = impl_->area;
-  for (const std::int64_t end : {std::int64_t{area.west} + cols, std::int64_t{area.east} + cols,
-                                 std::int64_t{area.north} + rows, std::int64_t{area.south} + rows}) {
-    if (is_far(end))
-      return fail(ErrorKind::kUsage,
-                  fmt::format("scrolled by {} columns and {} rows, the live field would lie beyond 2^30 samples from "
-                              "the place 0, 0",
-                              cols, rows));
-  }
+  SCARP_RETURN_IF_ERROR(live::check_scroll(impl_->samples.area(), cols, rows));
   if (cols == 0 && rows == 0) return {};
-  const std::lock_guard<Mutex> lock(impl_->samples);
+  const std::lock_guard<Mutex> lock(impl_->sampling);
   return impl_->scroll(cols, rows);
 } catch (...) {
   return caught(ErrorKind::kMemory, "scroll a live field");
@@ -445,7 +372,8 @@ Mesh LiveField::mesh() const {
   std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) {
     return std::pair(a->place.row, a->place.col) < std::pair(b->place.row, b->place.col);
   });
-  return live::join_cells(cells, impl_->lattice.side(), area, impl_->frame_of(area));
+  return live::join_cells(cells, impl_->lattice.side(), static_cast<int>(impl_->samples.channel_count()), area,
+                          impl_->frame_of(area));
 }
 
 double LiveField::max_error() const {
@@ -457,20 +385,19 @@ double LiveField::max_error() const {
 }
 
 std::uint64_t LiveField::triangle_count() const {
-  return impl_->shown.with([](const Impl::Shown& now) {
-    std::uint64_t count = 0;
-    for (const auto& cell : now.cells) count += cell->triangle_count();
-    return count;
-  });
+  return impl_->shown.with([](const Impl::Shown& now) { return now.triangles; });
+}
+
+std::int64_t LiveField::level() const {
+  return impl_->shown.with([](const Impl::Shown& now) { return now.level; });
 }
 
 std::uint32_t LiveField::slot_count() const { return impl_->lattice.slot_count(); }
 
 std::vector<float> LiveField::heights() const {
-  const std::lock_guard<Mutex> lock(impl_->samples);
-  std::vector<float> samples(std::size_t(impl_->area.cols()) * std::size_t(impl_->area.rows()));
-  impl_->heights.read(impl_->area, impl_->area, samples.data());
-  return samples;
+  const std::lock_guard<Mutex> lock(impl_->sampling);
+  Patch whole = impl_->samples.read(impl_->samples.area());
+  return std::move(whole.layers[FieldSamples::kHeights]);
 }
 
 SampleAt LiveField::place() const {

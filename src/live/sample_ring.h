@@ -19,6 +19,9 @@ struct Area {
   std::int32_t rows() const { return south - north + 1; }
   bool is_empty() const { return east < west || south < north; }
   Area grown(std::int32_t by) const { return {west - by, north - by, east + by, south + by}; }
+  Area moved(std::int32_t by_cols, std::int32_t by_rows) const {
+    return {west + by_cols, north + by_rows, east + by_cols, south + by_rows};
+  }
   Area clipped(const Area& to) const;
   void include(std::int32_t col, std::int32_t row);
   /// The parts that another area does not cover; some may be empty, or overlap.

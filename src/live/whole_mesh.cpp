@@ -31,9 +31,10 @@ class BorderVertices {
 
 }  // namespace
 
-Mesh join_cells(std::span<const std::shared_ptr<const LiveCell>> cells, std::int32_t side, const Area& field,
-                const Frame& frame) {
+Mesh join_cells(std::span<const std::shared_ptr<const LiveCell>> cells, std::int32_t side, int channels,
+                const Area& field, const Frame& frame) {
   Mesh mesh;
+  mesh.channel_count = channels;
   const auto [x, y] = frame_origin(frame, field.cols(), field.rows());
   mesh.origin = {x, y, 0};
   const bool is_mirrored = frame.determinant() > 0;
@@ -49,6 +50,8 @@ Mesh join_cells(std::span<const std::shared_ptr<const LiveCell>> cells, std::int
       if (ids.back() != next) continue;
       const auto [east, north] = frame.apply_affine(col - field.west, row - field.north);
       mesh.positions.insert(mesh.positions.end(), {east - x, north - y, double{cell->positions[3 * v + 2]}});
+      const auto values = cell->channels.begin() + static_cast<std::ptrdiff_t>(v) * channels;
+      mesh.channels.insert(mesh.channels.end(), values, values + channels);
     }
     for (std::size_t k = 0; k < cell->triangles.size(); k += 3) {
       std::array<std::uint32_t, 3> corners{};

@@ -64,6 +64,8 @@ class Criterion {
   std::vector<Point> ranking() const;
   /// Samples without a bound; those of source_bounds() are counted by the proof.
   std::uint64_t ignored() const { return ignored_; }
+  /// Those of the field that it was made for.
+  const std::vector<Channel>& channels() const { return field_->channels; }
   /// The fields whose errors count.
   std::vector<MetricField> metric_fields() const;
   bool has_error_goal() const { return bound_.has_value() || has_tolerances(*options_); }

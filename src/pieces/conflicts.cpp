@@ -65,7 +65,6 @@ constexpr ConflictRule kRules[] = {
      Where::kAlways,
      "cutlines, walls, ridges, angles and edge lengths need vertices of their own on the border"},
     {Fields(Field::kLevels), kLines, {}, Where::kAlways, "lines need vertices on the border, which all levels share"},
-    {Fields(Field::kBorder), Fields(Field::kChannels), {}, Where::kAlways, "heights alone decide a locked border"},
     {Fields(Field::kBorder),
      Fields(Field::kOutlineTolerance),
      {},

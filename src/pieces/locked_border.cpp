@@ -12,7 +12,9 @@
 
 #include "base/sort.h"
 #include "geom/exact_error.h"
+#include "grid/edge_line.h"
 #include "metric/criterion.h"
+#include "pieces/recipe.h"
 
 namespace scarp {
 
@@ -29,28 +31,22 @@ struct LockedBorder::Edge {
 namespace {
 
 /// A piece of the line, between two vertices.
-class Chord {
- public:
-  Chord(std::span<const float> heights, std::int32_t a, std::int32_t b)
-      : heights_(heights), a_(a), steps_(b - a), from_(at(a)), to_(at(b)) {}
+struct Chord {
+  std::int32_t a, b;
 
-  double height_at(std::int32_t i) const {
-    return double{from_} + (double{to_} - double{from_}) * (static_cast<double>(i - a_) / steps_);
+  double value_at(std::span<const float> values, std::int32_t i) const {
+    const double from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
+    return from + (to - from) * (static_cast<double>(i - a) / (b - a));
   }
   /// True if the sample is farther from the chord than the bound, as real numbers.
-  bool misses(std::int32_t i, double bound) const {
-    const double error = std::abs(height_at(i) - double{at(i)});
-    const double rounding = 0x1p-50 * (std::abs(double{from_}) + std::abs(double{to_}));
+  bool misses(std::span<const float> values, std::int32_t i, double bound) const {
+    const float from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
+    const float value = values[static_cast<std::size_t>(i)];
+    const double error = std::abs(value_at(values, i) - double{value});
+    const double rounding = 0x1p-50 * (std::abs(double{from}) + std::abs(double{to}));
     if (std::abs(error - bound) > rounding) return error > bound;
-    return exceeds_exactly_between(from_, to_, i - a_, steps_, at(i), bound);
+    return exceeds_exactly_between(from, to, i - a, b - a, value, bound);
   }
-
- private:
-  float at(std::int32_t i) const { return heights_[static_cast<std::size_t>(i)]; }
-
-  std::span<const float> heights_;
-  std::int32_t a_, steps_;
-  float from_, to_;
 };
 
 /// `given` plus the ends of runs of valid heights.
@@ -77,6 +73,8 @@ Result<LockedBorder> LockedBorder::make(const HeightField& field, const Simplify
   border.cols_ = raster.cols;
   border.rows_ = raster.rows;
   border.samples_.assign(raster.samples, raster.row(raster.rows));
+  for (const Channel& channel : field.channels)
+    border.channels_.emplace_back(channel.samples, channel.samples + border.samples_.size());
   const std::int32_t right = raster.cols - 1, bottom = raster.rows - 1;
   const Edge edges[] = {{"top", {0, 0}, {1, 0}, raster.cols, &EdgeVertices::top},
                         {"bottom", {0, bottom}, {1, 0}, raster.cols, &EdgeVertices::bottom},
@@ -92,12 +90,22 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
                                const Raster& raster) {
   const Border& asked = options.domain.border;
   std::vector<float> heights;
+  std::vector<std::vector<float>> channels(field.channels.size());
   std::vector<double> bounds;
   for (std::int32_t i = 0; i < edge.count; ++i) {
-    heights.push_back(raster.at(edge.at(i)));
-    const double bound = asked_bound(options, asked.max_error, edge.at(i), raster.cols);
+    const Point p = edge.at(i);
+    heights.push_back(raster.at(p));
+    for (std::size_t k = 0; k < channels.size(); ++k) channels[k].push_back(field.channels[k].samples[index_of(p)]);
+    const double bound = asked_bound(options, asked.max_error, p, raster.cols);
     bounds.push_back(std::isinf(bound) ? bound : tightened(bound, field.sample_rounding));
   }
+  std::vector<EdgeField> fields{{heights, field.height_scale}};
+  for (std::size_t k = 0; k < channels.size(); ++k) fields.push_back({channels[k], field.channels[k].scale});
+  const auto misses = [&](const Chord& chord, std::int32_t i) {
+    const double bound = bounds[static_cast<std::size_t>(i)];
+    if (!has_norm(field)) return chord.misses(heights, i, bound);
+    return chord_error(fields, options.goals.norm, chord.a, chord.b, i) > bound;
+  };
   std::vector<std::int32_t> vertices;
   if (asked.vertices) {
     const std::vector<std::int32_t>& given = (*asked.vertices).*edge.given;
@@ -110,26 +118,35 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
     }
     vertices = complete(given, heights);
   } else {
-    vertices = simplify_edge(heights, 0, bounds);
+    vertices = simplify_edge(fields, options.goals.norm, 0, bounds);
   }
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     vertices_.push_back(edge.at(vertices[k]));
     if (k == 0 || !is_segment(heights, vertices[k - 1], vertices[k])) continue;
-    for (std::int32_t i = vertices[k - 1] + 1; i < vertices[k]; ++i) {
-      const Chord chord(heights, vertices[k - 1], vertices[k]);
-      const double bound = bounds[static_cast<std::size_t>(i)], line = chord.height_at(i);
-      const double error = std::abs(line - double{heights[static_cast<std::size_t>(i)]});
-      if (asked.vertices && chord.misses(i, bound))
+    const Chord chord{vertices[k - 1], vertices[k]};
+    for (std::int32_t i = chord.a + 1; i < chord.b; ++i) {
+      if (asked.vertices && misses(chord, i))
         return fail(ErrorKind::kUsage, fmt::format("the border's {} edge misses sample ({}, {}) by {}, more than {}",
-                                                   edge.name, edge.at(i).x, edge.at(i).y, error, bound));
-      const auto rounded = static_cast<float>(line);
-      if (std::abs(rounded - line) >= error || !chord.misses(i, 0)) continue;
-      const Point p = edge.at(i);
-      samples_[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(p.x)] =
-          rounded;
+                                                   edge.name, edge.at(i).x, edge.at(i).y,
+                                                   chord_error(fields, options.goals.norm, chord.a, chord.b, i),
+                                                   bounds[static_cast<std::size_t>(i)]));
+      const auto move = [&](std::span<const float> values, std::vector<float>& samples) {
+        const double line = chord.value_at(values, i);
+        const auto rounded = static_cast<float>(line);
+        if (std::abs(rounded - line) < std::abs(line - double{values[static_cast<std::size_t>(i)]}) &&
+            chord.misses(values, i, 0))
+          samples[index_of(edge.at(i))] = rounded;
+      };
+      move(heights, samples_);
+      for (std::size_t c = 0; c < channels.size(); ++c) move(channels[c], channels_[c]);
     }
   }
   return {};
+}
+
+HeightField LockedBorder::with_channels(HeightField field) const {
+  for (std::size_t k = 0; k < channels_.size(); ++k) field.channels[k].samples = channels_[k].data();
+  return field;
 }
 
 Result<void> LockedBorder::check(std::span<const Point> points, std::int32_t steps) const {

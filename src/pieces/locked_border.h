@@ -2,7 +2,7 @@
 // lines.
 //
 //     edge     o──·──·──o──·──o      o  vertices of the line: there before refinement, and after every effort
-//              │╲       │   ╱ │      ·  samples that get the line's height: no triangle misses them, so none asks for
+//              │╲       │   ╱ │      ·  samples that get the line's values: no triangle misses them, so none asks for
 //              │  ╲     │ ╱   │         a vertex there
 #pragma once
 
@@ -31,13 +31,19 @@ class LockedBorder {
   /// Fails with kUsage if a point, in steps between samples, lies on a side but is not one of the vertices.
   Result<void> check(std::span<const Point> points, std::int32_t steps) const;
   Raster raster() const { return {samples_.data(), cols_, rows_}; }
+  /// The field with those channels.
+  HeightField with_channels(HeightField field) const;
 
  private:
   struct Edge;
 
+  std::size_t index_of(Point p) const {
+    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(p.x);
+  }
   Result<void> add(const Edge& edge, const HeightField& field, const SimplifyOptions& options, const Raster& raster);
 
   std::vector<float> samples_;
+  std::vector<std::vector<float>> channels_;
   std::int32_t cols_ = 0, rows_ = 0;
   std::vector<Point> vertices_;
 };

@@ -307,8 +307,11 @@ class MeshPasses {
       if (has_more) at = frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
     }
     if (recipe_.height_step > 0) round_heights(result.mesh, recipe_.height_step);
-    // The samples themselves: those of a locked border lie on its line here, and neighbours know them as they are.
-    add_attributes(options_.domain.border.is_locked ? field_ : clean, options_, at, result.mesh);
+    // Normals are of the samples themselves: those of a locked border lie on its line here, as its channels do, and
+    // neighbours know them as they are.
+    HeightField read = options_.domain.border.is_locked ? field_ : clean;
+    read.channels = criterion_.channels();
+    add_attributes(read, options_, at, result.mesh);
     result.passes.push_back({"freeze", seconds_since(start) - seconds_of_order});
     if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/norm.h"
 #include "base/parallel.h"
 #include "grid/window.h"
 #include "measure/band.h"
@@ -29,11 +30,8 @@ class Tally {
     return [this, scale](int row, std::span<const float> errors) {
       float* totals = &totals_[static_cast<std::size_t>(row) * cols_];
       for (std::size_t x = 0; x < cols_; ++x) {
-        const double error = scale * std::abs(double{errors[x]}), total = double{totals[x]};
-        const double sum = norm_ == Norm::kSquares ? std::sqrt(total * total + error * error)
-                           : norm_ == Norm::kSum   ? total + error
-                                                   : std::max(error, total);
-        totals[x] = std::isnan(error) ? NAN : static_cast<float>(sum);
+        const double error = scale * std::abs(double{errors[x]});
+        totals[x] = std::isnan(error) ? NAN : static_cast<float>(add_to_norm_of(norm_, double{totals[x]}, error));
       }
     };
   }

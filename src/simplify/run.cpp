@@ -149,18 +149,19 @@ Result<Simplified> run_locked(const Recipe& recipe, LineWork* lines) {
     SCARP_RETURN_IF_ERROR(border.check(lines->graph().points, kLatticeSteps));
   }
   const Raster raster = border.raster();
-  SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
+  const Recipe inside = recipe.on(border.with_channels(recipe.field));
+  SCARP_TRY(const auto& criterion, make_criterion(inside, raster));
   const auto start = Clock::now();
   std::optional<Tiled> tiled;
   if (lines == nullptr && recipe.is_dominant && !std::isinf(criterion.largest_aim())) {
-    std::vector<Point> inside;
-    for (const auto& [col, row] : options.features.points) inside.push_back({col, row});
+    std::vector<Point> points;
+    for (const auto& [col, row] : options.features.points) points.push_back({col, row});
     TiledOptions alone;
     alone.threshold = criterion.largest_aim();
     alone.memory = recipe.memory;
     if (options.run.progress && !Reporter(options.run.progress).report("refine", 0, 0, 0))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
-    SCARP_TRY(tiled, refine_alone(raster, border.vertices(), inside, alone));
+    SCARP_TRY(tiled, refine_alone(raster, border.vertices(), points, alone));
   }
   const double seconds = seconds_since(start);
   const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;

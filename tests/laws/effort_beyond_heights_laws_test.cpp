@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -97,6 +98,68 @@ RC_GTEST_PROP(channels_of_efforts, keep_their_norm_with_no_more_triangles_on_any
     options.run.threads = threads;
     RC_ASSERT(is_same_mesh(*simplify(view, options), *made));
   }
+}
+
+/// Columns [first, end).
+Coloured columns(const Coloured& whole, std::int32_t first, std::int32_t end) {
+  const auto cut = [&](const Field& field) {
+    Field part{end - first, field.rows, {}};
+    for (std::int32_t y = 0; y < field.rows; ++y)
+      part.samples.insert(part.samples.end(), field.raster().row(y) + first, field.raster().row(y) + end);
+    return part;
+  };
+  Coloured part{cut(whole.heights), {}, whole.scales, whole.height_scale};
+  for (const Field& layer : whole.layers) part.layers.push_back(cut(layer));
+  return part;
+}
+
+/// Height and channels of the vertices at column x, by row from the bottom.
+std::map<double, std::vector<double>> values_on(const Mesh& mesh, double x) {
+  std::map<double, std::vector<double>> found;
+  const auto count = static_cast<std::size_t>(mesh.channel_count);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.vertex(v)[0] != x) continue;
+    std::vector<double>& values = found[mesh.vertex(v)[1]];
+    values.push_back(mesh.vertex(v)[2]);
+    for (std::size_t k = 0; k < count; ++k) values.push_back(mesh.channels[count * v + k]);
+  }
+  return found;
+}
+
+RC_GTEST_PROP(channels_of_efforts, keep_their_norm_within_a_locked_border_that_neighbours_share, ()) {
+  const Coloured whole = any_coloured(18);
+  RC_PRE(whole.heights.cols > 2);
+  const auto at = *rc::gen::inRange(1, whole.heights.cols - 1);
+  const Coloured sides[] = {columns(whole, 0, at + 1), columns(whole, at, whole.heights.cols)};
+  SimplifyOptions options;
+  options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.goals.max_error = *rc::gen::element(0.0, 1.0, 2.0, 7.0, 40.0);
+  options.domain.border.is_locked = true;
+  std::map<double, std::vector<double>> shared[2];
+  for (int side = 0; side < 2; ++side) {
+    const HeightField view = sides[side].view();
+    options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+    const auto made = simplify(view, options);
+    if (!made) {
+      RC_LOG() << made.error().message;
+      RC_ASSERT(made.error().kind == ErrorKind::kInput);  // no surface
+      return;
+    }
+    RC_ASSERT(made->measurement.uncovered == 0u);
+    RC_ASSERT(measure(view, made->mesh)->is_sound());
+    for (int row = 0; row < view.rows; ++row) {
+      for (int col = 0; col < view.cols; ++col) {
+        if (std::isnan(testing::error_at(made->mesh, view, col, row))) continue;
+        RC_ASSERT(norm_at(made->mesh, view, options.goals.norm, col, row) <=
+                  *options.goals.max_error * (1 + 1e-9) + 1e-9);
+      }
+    }
+    shared[side] = values_on(made->mesh, side == 0 ? at : 0);
+  }
+  const std::vector<float>& heights = whole.heights.samples;
+  // Outlines of voids may have corners on the border that the neighbour does not need.
+  if (std::none_of(heights.begin(), heights.end(), [](float z) { return std::isnan(z); }))
+    RC_ASSERT(shared[0] == shared[1]);
 }
 
 RC_GTEST_PROP(channels_of_efforts, keep_bounds_of_samples, ()) {

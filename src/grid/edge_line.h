@@ -1,0 +1,26 @@
+// The line of an edge whose samples have several values.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scarp/options.h"
+
+namespace scarp {
+
+/// The values of one field along an edge. NaN is nodata; only the first field's counts.
+struct EdgeField {
+  std::span<const float> values;
+  double scale = 1;  ///< weight of its errors, at least 0
+};
+
+/// simplify_edge() for the norm of the fields' errors. With several fields no segment spans more than 256 steps, and
+/// the cost is at worst O(samples · 256²).
+std::vector<std::int32_t> simplify_edge(std::span<const EdgeField> fields, Norm norm, double tolerance,
+                                        std::span<const double> tolerances);
+
+/// The norm at sample i of the errors of the chord from sample a to sample b.
+double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i);
+
+}  // namespace scarp
