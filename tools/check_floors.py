@@ -50,7 +50,7 @@ ROOMS = {
               "finished sets of tiles, judged without knowing how they were made"),
     "tiles/mesh": (7, ["base", "globe"], ["grid", "mesh", "tiles/nodes", "simplify"],
                    "one tile: its nodes, lines, edges, mesh, and the judge of what clients decode"),
-    "live": (7, ["base"], ["grid", "simplify"], "fields that change: cells, their borders, and what readers see"),
+    "live": (7, ["base", "grid"], ["simplify"], "fields that change: cells, their borders, and what readers see"),
     "tiles/pyramid": (8, ["base", "globe", "tiles/nodes", "tiles/mesh", "tiles/water"], ["grid", "pieces", "simplify"],
                       "levels, blocks, and what these hand to the levels above"),
     "jobs": (9, ["base", "grid", "io", "tiles/mesh", "tiles/water"], ANY,

@@ -39,7 +39,9 @@ Result<LiveOptions> read_options(const scarp_live_options& asked) {
   if (asked.effort < 0 || asked.effort > 2)
     return fail(ErrorKind::kUsage,
                 "the effort of a live field is 0 (fast), 1 (normal) or 2 (high), not " + std::to_string(asked.effort));
-  return LiveOptions{asked.max_error, kEfforts[asked.effort], asked.cell, asked.threads, {asked.col, asked.row}};
+  LiveOptions options{asked.max_error, kEfforts[asked.effort], asked.cell, asked.threads, {asked.col, asked.row}};
+  if (asked.max_triangles > 0) options.max_triangles = asked.max_triangles;
+  return options;
 }
 
 std::span<const float> samples_of(const float* values, std::int64_t cols, std::int64_t rows) {

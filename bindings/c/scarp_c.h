@@ -144,6 +144,7 @@ typedef struct scarp_live_options {
   int32_t cell;     /* steps between samples along a cell, 8 to 254. DEFAULT: 0, which is 32 with fast, else 64. */
   int32_t col, row; /* the field's first sample on the lattice of cells. DEFAULT: 0. */
   const float* tolerance; /* NULL, or a bound for each sample of the field */
+  uint64_t max_triangles; /* a budget after every change: bounds rise above max_error for it. DEFAULT: 0, none. */
 } scarp_live_options;
 
 /* The mesh of a cell; the pointers are those of the scarp_changes. */
@@ -280,7 +281,7 @@ void scarp_refiner_free(scarp_refiner* refiner);
 /* A field that changes many times a second: an update makes only the cells anew that it touches. The field is copied.
  * One thread at a time may change it, a second one gets an error; others may call scarp_live_changes(), _mesh() and the
  * counts meanwhile. A failed call changes nothing. The mesh has the bytes of a field made from the final samples at
- * the same col and row. */
+ * the same col and row; with max_triangles it depends on the changes before, too. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
 /* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: NULL (they

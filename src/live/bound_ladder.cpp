@@ -8,13 +8,21 @@ namespace scarp::live {
 namespace {
 
 constexpr std::int64_t kRungs = 4;  // to a factor of 2
-constexpr double kRootsOfTwo[kRungs] = {1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
 
 std::int64_t divide_down(std::int64_t value, std::int64_t by) { return value / by - (value % by < 0 ? 1 : 0); }
 
-double bound_at(std::int64_t rung) {
+/// 2^(rung / kRungs + small / (kRungs · steps)). Square roots and products are the same on every machine, as those of a
+/// library's exp2() are not. REQUIRES: `steps` is a power of two.
+double bound_at(std::int64_t rung, std::int64_t small = 0, std::int64_t steps = 1) {
   const std::int64_t power = divide_down(rung, kRungs);
-  return std::ldexp(kRootsOfTwo[rung - power * kRungs], static_cast<int>(power));
+  double bound = 1, root = 2;
+  for (std::int64_t part = (rung - power * kRungs) * steps + small, whole = kRungs * steps; part > 0;) {
+    root = std::sqrt(root);
+    whole /= 2;
+    if (part >= whole) bound *= root;
+    part %= whole;
+  }
+  return std::ldexp(bound, static_cast<int>(power));
 }
 
 }  // namespace
@@ -25,12 +33,14 @@ BoundLadder::BoundLadder(const CellLattice& lattice, double max_error, bool has_
 std::int64_t BoundLadder::level_of(double bound) const {
   std::int64_t rung = kLowest;
   while (rung < kHighest && bound_at(rung + 1) <= bound) ++rung;
-  return rung * slots_;
+  return rung * step();
 }
 
 double BoundLadder::bound_of(SampleAt cell, std::int64_t level) const {
-  const std::int64_t rung = divide_down(level, slots_), climbed = level - rung * slots_;
-  return std::max(max_error_, bound_at(rung + (lattice_.slot_of(cell) < climbed ? 1 : 0)));
+  const std::int64_t rung = divide_down(level, step()), rest = level - rung * step();
+  const std::int64_t climbed = rest / kSmallSteps, slot = lattice_.slot_of(cell);
+  if (slot == climbed) return std::max(max_error_, bound_at(rung, rest % kSmallSteps, kSmallSteps));
+  return std::max(max_error_, bound_at(rung + (slot < climbed ? 1 : 0)));
 }
 
 CellBounds BoundLadder::bounds_of(SampleAt cell, std::int64_t level) const {
@@ -43,7 +53,7 @@ CellBounds BoundLadder::bounds_of(SampleAt cell, std::int64_t level) const {
 }
 
 bool BoundLadder::is_lowest(std::int64_t level) const {
-  const std::int64_t rung = divide_down(level, slots_);
+  const std::int64_t rung = divide_down(level, step());
   return rung <= kLowest || bound_at(rung + 1) <= max_error_;
 }
 
@@ -64,7 +74,7 @@ std::int64_t LevelSearch::estimate(const Trial& now) const {
 
 std::optional<std::int64_t> LevelSearch::next(std::int64_t level, std::uint64_t triangles, bool is_finest) {
   const Trial now{level, static_cast<double>(triangles)};
-  // A search that moves goes on to the middle of the range, so that the next change seldom needs one.
+  // A search that moves continues to the middle of the range, so that the next change seldom needs one.
   const std::uint64_t spare = last_ ? budget_ / 200 : 0;
   const bool is_over = triangles > budget_ - spare;
   (is_over ? over_ : within_) = now;

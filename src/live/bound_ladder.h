@@ -19,9 +19,10 @@ struct CellBounds {
   friend bool operator==(const CellBounds&, const CellBounds&) = default;
 };
 
-/// A rung is 2^(1/4) times the one below. At a level of r · slots + k all cells stand on rung r, but the first k slots
-/// on rung r + 1. So neighbours differ by one rung at most, and a cell that climbs changes one or two of its
-/// neighbours: borders have the smaller bound of their two cells. No bound is below the field's max error.
+/// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one and in
+/// 16 small steps, a level each: at most one cell stands between two rungs. So two cells differ by one rung at most,
+/// and a cell that climbs changes one or two of its neighbours: borders have the smaller bound of their two cells. No
+/// bound is below the field's max error.
 class BoundLadder {
  public:
   /// Bounds of 2^-150 to 2^150.
@@ -30,15 +31,17 @@ class BoundLadder {
   BoundLadder(const CellLattice& lattice, double max_error, bool has_budget);
 
   /// Levels between two rungs.
-  std::int64_t step() const { return slots_; }
+  std::int64_t step() const { return slots_ * kSmallSteps; }
   /// The level where all cells stand on the rung at or below a bound.
   std::int64_t level_of(double bound) const;
   CellBounds bounds_of(SampleAt cell, std::int64_t level) const;
   /// True if each cell's bound is the max error, or the lowest rung.
   bool is_lowest(std::int64_t level) const;
-  bool is_highest(std::int64_t level) const { return level >= kHighest * slots_; }
+  bool is_highest(std::int64_t level) const { return level >= kHighest * step(); }
 
  private:
+  static constexpr std::int64_t kSmallSteps = 16;
+
   double bound_of(SampleAt cell, std::int64_t level) const;
 
   CellLattice lattice_;

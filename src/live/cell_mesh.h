@@ -26,7 +26,7 @@ struct CellSamples {
   std::vector<std::span<const float>> channels;
 };
 
-/// What all cells of a field have in common.
+/// Settings of all cells of a field.
 struct CellRules {
   Effort effort = Effort::kFast;
   Norm norm = Norm::kSum;

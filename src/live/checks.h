@@ -1,4 +1,4 @@
-// What a live field refuses.
+// Checks of a live field's inputs.
 #pragma once
 
 #include <cstddef>

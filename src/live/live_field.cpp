@@ -45,7 +45,7 @@ int side_of(const LiveOptions& options) {
   return options.effort == Effort::kFast ? 32 : 64;
 }
 
-/// Where the search for a budget starts: coarse, since a fine mesh costs more.
+/// Start of the search for a budget: coarse, since a fine mesh costs more.
 std::int64_t first_level(const HeightField& field, const BoundLadder& ladder, double max_error) {
   const HeightRange range = height_range(field);
   constexpr double kParts = 64;
@@ -57,6 +57,11 @@ CellRules rules_of(const HeightField& field, const LiveOptions& options) {
   CellRules rules{options.effort, options.norm, field.sample_rounding, field.height_scale, {}};
   for (const Channel& channel : field.channels) rules.channel_scales.push_back(channel.scale);
   return rules;
+}
+
+/// Modulo 2^64 where there are fewer than before.
+std::uint64_t added_by(const LiveCell& cell, const LiveCell& before) {
+  return std::uint64_t{cell.triangle_count()} - before.triangle_count();
 }
 
 float height_or_void(float height, const std::optional<float>& nodata) {
@@ -77,7 +82,7 @@ struct LiveField::Impl {
   struct Writer {
     bool is_busy = false;
   };
-  /// What a change makes: cells by slot, and the level of their bounds.
+  /// Result of a change: cells by slot, and the level of their bounds.
   struct Made {
     std::int64_t level = 0;
     std::map<std::uint32_t, std::shared_ptr<LiveCell>> cells;
@@ -161,7 +166,7 @@ struct LiveField::Impl {
       std::uint64_t triangles = now.triangles;
       double error = 0;
       for (const auto& [slot, cell] : made.cells)
-        triangles += cell->triangle_count() - now.cells[slot]->triangle_count();
+        triangles += added_by(*cell, *now.cells[slot]);
       for (const auto& cell : now.cells) error = std::max(error, made.cells.contains(cell->slot) ? 0 : cell->max_error);
       for (const auto& [slot, cell] : made.cells) error = std::max(error, cell->max_error);
       return std::pair(triangles, error);
@@ -221,7 +226,7 @@ struct LiveField::Impl {
       now.level = made.level;
       ++now.version;
       for (auto& [slot, cell] : made.cells) {
-        now.triangles += cell->triangle_count() - now.cells[slot]->triangle_count();
+        now.triangles += added_by(*cell, *now.cells[slot]);
         cell->version = now.versions[slot] = now.version;
         now.cells[slot] = std::move(cell);
       }

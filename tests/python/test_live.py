@@ -52,6 +52,26 @@ class Live(unittest.TestCase):
             np.testing.assert_array_equal(cell.triangles, whole[slot].triangles)
         self.assertEqual(sum(len(cell.triangles) for cell in cells.values()), live.triangle_count)
 
+    def test_keeps_a_budget(self):
+        z = hills(200, 240)
+        live, counts = scarp.Live(z, max_triangles=1500), []
+        for turn in range(10):
+            rows, cols = slice(15 * turn, 15 * turn + 30), slice(20 * turn, 20 * turn + 40)
+            live.update(rows, cols, 3 * z[rows, cols])
+            counts.append(live.triangle_count)
+        self.assertLessEqual(max(counts), 1500)
+        self.assertGreater(min(counts), 1400)
+        self.assertGreater(sum(count >= 1470 for count in counts), 5, counts)
+        report = scarp.measure(live.heights, live.mesh(), transform=live.transform)
+        self.assertEqual((report.max_error, report.uncovered), (live.max_error, 0))
+        self.assertLess(scarp.Live(np.zeros((99, 99)), max_triangles=5000).triangle_count, 100)
+        with self.assertRaisesRegex(scarp.UsageError, "needs max_error or max_triangles"):
+            scarp.Live(z)
+        with self.assertRaisesRegex(scarp.UsageError, "a budget or tolerances"):
+            scarp.Live(z, max_triangles=1500, tolerance=1)
+        with self.assertRaisesRegex(scarp.UsageError, r"needs \d+ triangles with any bound, more than its budget of 7"):
+            scarp.Live(z, max_triangles=7)
+
     def test_keeps_bounds_of_samples(self):
         z = hills(50, 60)
         bounds = np.full(z.shape, np.inf, np.float32)

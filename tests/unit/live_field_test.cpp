@@ -45,8 +45,9 @@ TEST(live_field, refuses_what_it_cannot_follow) {
   EXPECT_THAT(error_of(field, {.max_error = 1}, 5), HasSubstr("of 3500 samples cannot have 5 tolerances"));
   EXPECT_THAT(error_of(field, {.max_error = 1}, 3500), HasSubstr("tolerance 0 (counted from 0) is -1"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .place = {2'000'000'000, 0}}), HasSubstr("within 2^30 samples"));
-  field.channels.push_back({hills().samples.data()});
-  EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("omit the channels"));
+  EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 9}, 3500), HasSubstr("a budget or tolerances"));
+  field.channels.push_back({nullptr});
+  EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("lacks the values of channel 1"));
 }
 
 TEST(live_field, names_a_wrong_window_and_stays_as_it_was) {

@@ -11,6 +11,7 @@ struct LiveAsked {
   double max_error, effort, cell;
   double tolerances;  ///< address of cols · rows float32; 0: none
   double col, row;    ///< LiveOptions::place
+  double triangles;   ///< a budget; 0: none
 };
 
 struct LiveState {
@@ -53,6 +54,7 @@ SCARP_EXPORT(scarp_live_create) LiveField* scarp_live_create(const Field* given_
     options.effort = static_cast<scarp::Effort>(asked->effort);
     options.cell = whole(asked->cell);
     options.place = {whole(asked->col), whole(asked->row)};
+    if (asked->triangles > 0) options.max_triangles = static_cast<std::uint64_t>(asked->triangles);
     SCARP_TRY(auto&& live,
               LiveField::create(field, options, values(asked->tolerances, given_field->cols * given_field->rows)));
     return std::make_unique<LiveField>(std::move(live));

@@ -3,8 +3,13 @@ import type { Floats, Heights, Mesh, Numbers, Place } from './index.js';
 export * from './index.js';
 
 export interface LiveOptions extends Place {
-  /** Every sample, as float32, is within this of the mesh, vertically, after every change. */
-  maxError: number;
+  /** Every sample, as float32, is within this of the mesh, vertically, after every change. Needed without maxTriangles. */
+  maxError?: number;
+  /**
+   * A budget: after every change the mesh has at most so many triangles, and mostly at least 98 % of them, unless fewer
+   * keep maxError (then 0 by default). The property maxError is what that needs. Not with tolerance.
+   */
+  maxTriangles?: number;
   effort?: 'fast' | 'normal' | 'high';
   /** Steps between samples along the side of a cell, 8 to 254. Default: 32 with effort 'fast', else 64. */
   cell?: number;
@@ -45,8 +50,8 @@ export interface LiveChanges {
 export interface Live extends Disposable {}
 /**
  * A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches. After
- * any changes the mesh has the bytes of one made from the final samples at the same place. A failed call changes
- * nothing. With another entry of the package loaded first, its constructor fails.
+ * any changes the mesh has the bytes of one made from the final samples at the same place; with maxTriangles it depends
+ * on the changes before, too. A failed call changes nothing. With another entry of the package loaded first, its constructor fails.
  */
 export class Live {
   constructor(z: Heights, width: number, height: number, options: LiveOptions);

@@ -120,7 +120,7 @@ export const ENTRIES = {
   simplifyPoints: [...POINTS, 'transfer'],
   simplifyPointsSync: POINTS,
   place: PLACE,
-  live: ['maxError', 'effort', 'cell', 'tolerance', 'place', ...PLACE],
+  live: ['maxError', 'maxTriangles', 'effort', 'cell', 'tolerance', 'place', ...PLACE],
   update: ['tolerance'],
   refine: ['maxError', 'maxVertices'],
   pool: ['size', 'worker'],

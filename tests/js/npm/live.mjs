@@ -35,10 +35,10 @@ function sorted({ positions, indices }) {
   return triangles.sort().join('');
 }
 
-function hash(effort) {
+function hash(effort, goals = { maxError: 3 }) {
   state = 7;
   const digest = createHash('sha256');
-  const live = new Live(field(), width, height, { maxError: 3, effort, cell: 16, place: [5, -3] });
+  const live = new Live(field(), width, height, { ...goals, effort, cell: 16, place: [5, -3] });
   let version = 0;
   for (let step = 0; step < 40; ++step) {
     const changes = live.changes(version);
@@ -57,6 +57,7 @@ const bytesOf = live => live.changes().cells.map(({ col, row, positions, indices
 
 if (process.argv[2] === 'hash') {
   for (const effort of ['fast', 'normal', 'high']) console.log(hash(effort));
+  console.log(hash('normal', { maxTriangles: 2000 }));
 } else {
   test('the mesh of a changed field is that of a new one, and within the bound', () => {
     for (const effort of ['fast', 'normal', 'high']) {
@@ -76,6 +77,16 @@ if (process.argv[2] === 'hash') {
         live.free();
       }
     }
+  });
+
+  test('a budget is kept after every change', () => {
+    const live = new Live(field(), width, height, { maxTriangles: 3000, effort: 'normal', cell: 8 });
+    for (let step = 0; step < 10; ++step) {
+      change(live);
+      assert.ok(live.triangleCount <= 3000, `${live.triangleCount}`);
+    }
+    assert.ok(live.maxError > 0);
+    assert.throws(() => new Live(field(), width, height, { maxTriangles: 9 }), /more than its budget of 9/);
   });
 
   test('changes are what a renderer needs: cells by slot, and only those that an update touches', () => {

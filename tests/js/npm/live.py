@@ -25,11 +25,12 @@ def in_order(cell):
     return "".join(sorted(min(a + b + c, b + c + a, c + a + b) for a, b, c in triangles)).encode()
 
 
-for effort in ("fast", "normal", "high"):
+for effort, goals in (("fast", {"max_error": 3}), ("normal", {"max_error": 3}), ("high", {"max_error": 3}),
+                      ("normal", {"max_triangles": 2000})):
     state = 7
     digest = hashlib.sha256()
     z = np.array([k % width / 8 + sample() for k in range(width * height)], np.float32).reshape(height, width)
-    live = scarp.Live(z, 3, effort=effort, cell=16, place=(-3, 5))
+    live = scarp.Live(z, **goals, effort=effort, cell=16, place=(-3, 5))
     version = 0
     for _ in range(40):
         changes = live.changes(version)

@@ -50,17 +50,20 @@ class _Handle:
 class Live:
     """A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches.
 
-    source      as in simplify(), but no path; copied
-    max_error   every sample, as float32, is within this of the mesh, vertically, after every change
-    effort      "fast" (DEFAULT), "normal" or "high"
-    cell        steps between samples along a cell, 8 to 254. DEFAULT: 32 with "fast", else 64.
-    tolerance   (rows, columns) bounds for the samples, or one number; inf: none
-    place       (row, column) of the first sample on the lattice of cells
-    threads     of an update that touches several cells; never changes the mesh
+    source         as in simplify(), but no path; copied
+    max_error      every sample, as float32, is within this of the mesh, vertically, after every change; 0 with a budget
+    max_triangles  a budget: after every change the mesh has at most so many triangles, and mostly at least 98 % of
+                   them, unless fewer keep max_error. The property max_error is what that needs. No tolerance then.
+    effort         "fast" (DEFAULT), "normal" or "high"
+    cell           steps between samples along a cell, 8 to 254. DEFAULT: 32 with "fast", else 64.
+    tolerance      (rows, columns) bounds for the samples, or one number; inf: none
+    place          (row, column) of the first sample on the lattice of cells
+    threads        of an update that touches several cells; never changes the mesh
 
     NaN, infinities, nodata and masked samples are voids. One thread at a time changes the field, and a second one gets a
     UsageError; others may read meanwhile. A failed call changes nothing. Runs without
-    Python's lock. After any changes the mesh has the bytes of one made from the final samples at the same place.
+    Python's lock. After any changes the mesh has the bytes of one made from the final samples at the same place; with
+    max_triangles it depends on the changes before, too.
 
     >>> live = Live(z, 0.05)
     >>> live.update(slice(10, 60), slice(20, 70), z[10:60, 20:70] + 0.3)
@@ -69,8 +72,8 @@ class Live:
 
     _handle: Optional[int]
 
-    def __init__(self, source: Any, max_error: float, *, effort: str = "fast", cell: int = 0, band: int = 1,
-                 transform: Any = None, crs: Any = None, nodata: Optional[float] = None, tolerance: Any = None,
+    def __init__(self, source: Any, max_error: Optional[float] = None, *, max_triangles: Optional[int] = None,
+                 effort: str = "fast", cell: int = 0, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None, tolerance: Any = None,
                  place: tuple[int, int] = (0, 0), threads: int = 1) -> None:
         self._handle = None
         if numpy_if_there() is None:
@@ -81,7 +84,11 @@ class Live:
             raise UsageError("effort is fast, normal or high, not %r" % (effort,))
         options = _abi.LiveOptions()
         _abi.lib.scarp_live_options_init(C.byref(options), C.sizeof(options))
-        options.max_error = _values.bound_of("max_error", max_error)
+        if max_error is None and max_triangles is None:
+            raise UsageError("scarp.Live needs max_error or max_triangles: give max_error=0.05")
+        options.max_error = _values.bound_of("max_error", 0 if max_error is None else max_error)
+        if max_triangles is not None:
+            options.max_triangles = _values.whole_of("max_triangles", max_triangles, 1, 2**63)
         options.effort = _EFFORTS[effort]
         options.cell = _values.whole_of("cell", cell, 0, _LARGEST)
         options.threads = _values.whole_of("threads", threads, 0, _LARGEST)
