@@ -13,10 +13,10 @@
  *
  * General rules:
  *   - A function that can fail returns a scarp_status; after a failure its output is NULL or unchanged.
- *     scarp_last_error() then returns one sentence, which names the cause and the remedy. The library throws no
- *     exception and prints nothing.
+ *     scarp_last_error() then returns one sentence with the cause and the remedy. The library throws no exception and
+ *     prints nothing.
  *   - Structs begin with their own size, which scarp_..._init() sets. Structs only grow at their end. A later library
- *     reads the members known to an earlier caller, and uses defaults for the others. Handles are opaque.
+ *     reads the members that an earlier caller knows, and uses defaults for the others. Handles are opaque.
  *   - Data behind a pointer in a struct is borrowed during the call; a Refiner borrows its samples until it is freed.
  *   - A pointer returned by a handle is valid until the handle is freed. Freeing NULL does nothing. Functions that
  *     return a number or a pointer do not accept NULL as a handle.
@@ -87,7 +87,7 @@ typedef struct scarp_field {
   double nodata;          /* nodata value; if samples have it, all are copied. DEFAULT: NaN, none. */
   double geotransform[6]; /* GDAL's, of pixel corners: x = g[0] + g[1] col + g[2] row, y = g[3] + g[4] col + g[5] row */
   double sample_rounding; /* largest |value - float32 sample| by rounding; bounds are tightened by it */
-  const char* crs;        /* "EPSG:32611", WKT. DEFAULT: NULL. A name only in a library without GDAL. */
+  const char* crs;        /* "EPSG:32611", WKT. DEFAULT: NULL. Only a name in a library without GDAL. */
   const char* name;       /* for messages and the mesh's metadata. DEFAULT: NULL, "heights". */
   const char* unit; /* unit of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, unknown. */
 } scarp_field;
@@ -142,15 +142,15 @@ typedef struct scarp_live_options {
   double max_error; /* in z units, at least 0. DEFAULT: 0. */
   int32_t effort;   /* 0 fast, 1 normal, 2 high. DEFAULT: 0. */
   int32_t cell;     /* steps between samples along a cell, 8 to 254. DEFAULT: 0, which is 32 with fast, else 64. */
-  int32_t col, row; /* the field's first sample on the lattice of cells. DEFAULT: 0. */
+  int32_t col, row; /* position of the field's first sample on the lattice of cells. DEFAULT: 0. */
   const float* tolerance; /* NULL, or a bound for each sample of the field */
-  uint64_t max_triangles; /* a budget after every change: bounds rise above max_error for it. DEFAULT: 0, none. */
+  uint64_t max_triangles; /* a budget after every change: bounds exceed max_error if it needs this. DEFAULT: 0, none. */
 } scarp_live_options;
 
-/* The mesh of a cell; the pointers are those of the scarp_changes. */
+/* The mesh of a cell; the pointers are valid as long as the scarp_changes. */
 typedef struct scarp_live_cell {
   uint32_t struct_size;
-  uint32_t slot;                /* its place in a renderer's buffer: at most one cell has it */
+  uint32_t slot;                /* its place in a renderer's buffer, which at most one cell has */
   uint64_t version;             /* the change that made it */
   int32_t col, row;             /* its first sample, on the lattice of cells */
   uint32_t vertices, triangles; /* 0 triangles: the cell has no surface */
@@ -168,8 +168,8 @@ int32_t scarp_has_gdal(void); /* 1: reads all formats of GDAL, and knows CRSs; 0
 const char* scarp_abi_layout(void);
 /* The message of this thread's last failed call; valid until its next call. */
 const char* scarp_last_error(void);
-/* Renames an option for a binding ("crs", "frame"): callers may set it by that name, and messages use the name. Applies
- * to the whole process; call it before any other function. SCARP_USAGE if there is no such option. */
+/* Renames an option for a binding ("crs", "frame"): callers may set it by the new name, and messages use that name.
+ * Applies to the whole process; call it before any other function. SCARP_USAGE if there is no such option. */
 scarp_status scarp_name_option(const char* name, const char* shown);
 
 /* Rounds heights to float32 samples, for a field. Returns the largest |value - sample|, for its sample_rounding. NaN
@@ -179,11 +179,11 @@ double scarp_round_samples(const double* values, uint64_t count, float* samples)
 void scarp_field_init(scarp_field* field, uint32_t struct_size);
 void scarp_points_init(scarp_points* points, uint32_t struct_size);
 void scarp_options_init(scarp_options* options, uint32_t struct_size);
-/* Sets any option of the program except those for its terminal and files, by its long name with _ for -, to a value
- * that the program accepts: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
- * "true"). For a repeatable option each call adds a value; else the last one counts. NULL removes the option. An option
- * set by name overrides the member of the struct. `scarp help --json` lists all options. "of" is the format of the
- * mesh: like the program's OUTPUT it determines the frame, and whether positions are float32. SCARP_USAGE for an
+/* Sets any option of the program except those for its terminal and files, by its long name with _ instead of -, to a
+ * value that the program accepts: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
+ * "true"). For a repeatable option each call adds a value; else the last value is used. NULL removes the option. An
+ * option set by name overrides the member of the struct. `scarp help --json` lists all options. "of" is the format of
+ * the mesh: like the program's OUTPUT it determines the frame, and whether positions are float32. SCARP_USAGE for an
  * unknown name; the message suggests a similar one. */
 scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value);
 /* Frees the options of scarp_options_set(); the struct may be used again. */
@@ -214,15 +214,15 @@ typedef struct scarp_volumes {
   double cut;          /* volume with the second surface below the first */
   double fill;         /* volume with the second surface above the first */
   double net;          /* cut - fill */
-  double uncertainty;  /* bound of the three, by the max errors of the meshes; NaN if a mesh has none */
+  double uncertainty;  /* error bound of these three, from the max errors of the meshes; NaN if a mesh has none */
   double common_area;  /* area that both cover */
   double from_outside; /* area of the first that the second does not cover */
   double to_outside;   /* area of the second that the first does not cover; 0 for a level */
 } scarp_volumes;
 
-/* From one mesh to another, in the frames that their metadata name, or to a level. Of the options threads and progress
- * count. SCARP_INPUT for meshes without area in common, and for a solid, a triangle that stands upright or
- * faces down, triangles that overlap. */
+/* From one mesh to another, in the frames that their metadata name, or to a level. Only the options threads and
+ * progress are used. SCARP_INPUT for meshes without a common area, and for a solid, a triangle that stands upright or
+ * faces down, and triangles that overlap. */
 scarp_status scarp_measure_volume(const scarp_mesh* from, const scarp_mesh* to, const scarp_options* options,
                                   scarp_volumes* out);
 scarp_status scarp_measure_volume_to_level(const scarp_mesh* from, double level, const scarp_options* options,
@@ -244,16 +244,16 @@ const float* scarp_mesh_positions_f32(const scarp_mesh* mesh); /* rounded positi
 /* `key`: "crs", "frame", "command", "error" ...; NULL if the mesh does not have it. */
 const char* scarp_mesh_metadata(const scarp_mesh* mesh, const char* key);
 const char* scarp_mesh_warnings(const scarp_mesh* mesh); /* one sentence a line; "" if none */
-/* The report of a mesh that Scarp made; SCARP_USAGE for others: measure them by scarp_measure(). */
+/* The report of a mesh that Scarp made; SCARP_USAGE for other meshes: measure them by scarp_measure(). */
 scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out);
-/* Makes another mesh, closed into a solid by walls and a flat base at z, below all vertices. */
+/* Makes another mesh: a solid, closed by walls and a flat base at z, below all vertices. */
 scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** out);
 /* `format`: "glb", "obj", "2dm" ... (`scarp help --json`), "svg" or "eps". NULL: the format for which the mesh was
  * made. */
 scarp_status scarp_mesh_encode(const scarp_mesh* mesh, const char* format, scarp_bytes** out);
-/* Writes a file in the format of its ending: to a temporary name first, then renamed. */
+/* Writes a file in the format of its ending, first to a temporary name. */
 scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t overwrite);
-/* A whole mesh as bytes, and back: for another process with the same version of the library. */
+/* Converts a whole mesh to bytes, and back: for another process with the same version of the library. */
 scarp_status scarp_mesh_pack(const scarp_mesh* mesh, scarp_bytes** out);
 scarp_status scarp_mesh_unpack(const uint8_t* bytes, uint64_t size, scarp_mesh** out);
 void scarp_mesh_free(scarp_mesh* mesh);
@@ -266,8 +266,8 @@ void scarp_bytes_free(scarp_bytes* bytes);
 scarp_status scarp_refiner_create(const scarp_field* field, scarp_refiner** out);
 /* 1: inserted; 0: every sample is exact; -1: failed, see scarp_last_error(). */
 int32_t scarp_refiner_insert_worst(scarp_refiner* refiner);
-/* Inserts until the max error is at most max_error, or there are max_vertices (0: any number). Returns the number of
- * vertices inserted; -1: failed. */
+/* Inserts vertices until the max error is at most max_error, or there are max_vertices (0: any number). Returns the
+ * number of vertices inserted; -1: failed. */
 int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices);
 /* The same with options: reads max_error (DEFAULT: 0), max_points and progress. `inserted`, if not NULL, is always set:
  * the refiner keeps vertices inserted before a cancellation. */
@@ -278,36 +278,36 @@ uint64_t scarp_refiner_triangle_count(const scarp_refiner* refiner);
 scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out);
 void scarp_refiner_free(scarp_refiner* refiner);
 
-/* A field that changes many times a second: an update makes only the cells anew that it touches. The field is copied.
- * One thread at a time may change it, a second one gets an error; others may call scarp_live_changes(), _mesh() and the
- * counts meanwhile. A failed call changes nothing. The mesh has the bytes of a field made from the final samples at
- * the same col and row; with max_triangles it depends on the changes before, too. */
+/* A field that changes many times a second: an update remakes only the cells that it touches. The field is copied. One
+ * thread at a time may change it; a second one gets an error. Meanwhile, other threads may call scarp_live_changes(),
+ * _mesh() and the counts. A failed call changes nothing. The mesh has the same bytes as that of a field made from the
+ * final samples at the same col and row. With max_triangles it also depends on earlier changes. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
-/* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: NULL (they
- * stay), or as many. */
+/* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: cols * rows
+ * values, or NULL for no change. */
 scarp_status scarp_live_update(scarp_live* live, int32_t col, int32_t row, int32_t cols, int32_t rows,
                                const float* heights, const float* tolerance);
-/* Moves the field so many columns east and rows down; what enters is void until an update. */
+/* Moves the field by `cols` columns east and `rows` rows down; new samples are void until an update. */
 scarp_status scarp_live_scroll(scarp_live* live, int32_t cols, int32_t rows);
-/* The cells that changed after the version `since`, by slot, those that became empty included; after 0 all that have a
- * surface. A cell replaces the one that its slot had. */
+/* The cells that changed after the version `since`, sorted by slot, including those that became empty; for 0, all cells
+ * with a surface. A cell replaces the previous one of its slot. */
 scarp_status scarp_live_changes(const scarp_live* live, uint64_t since, scarp_changes** out);
 uint64_t scarp_changes_version(const scarp_changes* changes); /* for the next call */
 uint64_t scarp_changes_count(const scarp_changes* changes);
 /* Fills `out`, whose struct_size the caller sets. */
 scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, scarp_live_cell* out);
-/* One cell alone, whose memory it keeps when the others are freed. */
+/* Makes a scarp_changes of one cell, whose memory remains when `changes` is freed. */
 scarp_status scarp_changes_cut(const scarp_changes* changes, uint64_t index, scarp_changes** out);
 void scarp_changes_free(scarp_changes* changes);
-/* The whole as one mesh, in coordinates that stay while the field moves. */
+/* The whole field as one mesh, in coordinates that do not change when the field moves. */
 scarp_status scarp_live_mesh(const scarp_live* live, scarp_mesh** out);
-/* Fills `out` with the current cols * rows samples; waits for a change that runs. */
+/* Fills `out` with the current cols * rows samples; waits for a running change. */
 scarp_status scarp_live_heights(const scarp_live* live, float* out);
 void scarp_live_place(const scarp_live* live, int32_t* col, int32_t* row);
-/* The geotransform of the field where it lies now, in the coordinates of the mesh: for scarp_measure(). */
+/* The geotransform of the field at its current position, in the coordinates of the mesh: for scarp_measure(). */
 void scarp_live_geotransform(const scarp_live* live, double out[6]);
-double scarp_live_max_error(const scarp_live* live); /* the largest of a cell */
+double scarp_live_max_error(const scarp_live* live); /* the largest error of any cell */
 uint64_t scarp_live_triangle_count(const scarp_live* live);
 uint32_t scarp_live_slot_count(const scarp_live* live);
 void scarp_live_free(scarp_live* live);
@@ -320,11 +320,11 @@ void scarp_raster_free(scarp_raster* raster);
 
 /* Makes all tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...).
  * `output` is one file if it ends in .pmtiles, .mbtiles or .3tz, else a folder. The set gets its name at the end; a
- * failed call writes nothing. `overwrite`, other than 0: replaces a set made by Scarp. `out`, if not NULL: the report
- * of the set, as JSON. Needs GDAL. */
+ * failed call writes nothing. `overwrite`, other than 0: replaces a set made by Scarp. `out`, if not NULL, receives the
+ * report of the set, as JSON. Needs GDAL. */
 scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
                         scarp_bytes** out);
-/* The same from files: at each position the first file with a height counts. */
+/* The same from files: at each position, the first file with a height is used. */
 scarp_status scarp_tile_files(const char* const* paths, uint64_t count, const scarp_options* options,
                               const char* output, int32_t overwrite, scarp_bytes** out);
 /* Quantized-mesh tiles on request, by the options of `scarp tile` ("zoom", "vertical", "effort" ...). Needs GDAL. */

@@ -2,7 +2,7 @@
 // points, and the cutline.
 //
 // Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. With a
-// budget, each run of the search for that error rebuilds the lines.
+// budget, each run of the search for the max error rebuilds the lines.
 //
 // Example:
 //     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
@@ -37,7 +37,7 @@ struct Lake {
   std::uint64_t samples = 0;  ///< samples set to the level
   std::uint64_t raised = 0;   ///< samples around it raised above the level
   double largest_change = 0;  ///< largest change of a sample
-  std::uint64_t bytes = 0;    ///< bytes that the field keeps for it, if its samples are not one array in memory
+  std::uint64_t bytes = 0;    ///< bytes that the field uses for the lake, if its samples are not one array in memory
   std::vector<Line> shore;    ///< its rings, at the level: breaklines for Features::breaklines
 };
 
@@ -49,30 +49,31 @@ struct WaterOptions {
   double percentile = 5;
   /// Samples around a lake are raised to at least this height above its level, in z units, above 0.
   double freeboard = 0.01;
-  /// The memory limit of the process in bytes (0: none), and the bytes already in use, as in SimplifyOptions::run.
-  /// Lakes that do not fit fail with kUsage. DEFAULT: no limit.
-  Run run = {};  ///< memory; progress: of the pass "water"
+  /// The memory limit of the process in bytes (0: none), and the bytes already in use, as in SimplifyOptions::run. The
+  /// call fails with kUsage if the lakes do not fit. DEFAULT: no limit.
+  Run run = {};  ///< memory, and progress of the pass "water"
 };
 
-/// Flattens each polygon of `lines`: all valid samples in it (even-odd by its rings) get the level, a percentile of the
-/// heights of its shore. The shore is the raster's surface along all its rings, at two points a sample. Then samples
-/// outside of lakes among the eight neighbours of its samples are raised to at least level + freeboard, so that the
-/// water has a rim. Lakes are processed in the order of `lines`; a sample in two lakes belongs to the later one. Levels
-/// are computed from the field as given. Lines, and polygons without a valid sample on their shore, are omitted.
+/// Flattens each polygon of `lines`: sets all valid samples in it (by the even-odd rule for its rings) to the level, a
+/// percentile of the heights of its shore. The shore is the raster's surface along all its rings, at two points a
+/// sample. Then each sample outside of lakes that has a sample of the lake among its eight neighbours is raised to at
+/// least level + freeboard, so that the water has a rim. Lakes are processed in the order of `lines`; a sample in two
+/// lakes belongs to the later one. Levels are computed from the original field. Lines, and polygons without a valid
+/// sample on their shore, are omitted.
 ///
-/// The source of a field is replaced by one with the flattened samples. The source holds Lake::bytes, in proportion to
-/// the shores, however large the lakes are.
+/// If the field has a source, it is replaced by one with the flattened samples. The new source uses Lake::bytes of
+/// memory, in proportion to the shores, not to the areas of the lakes.
 ///
 /// With the shores as breaklines and vertices on samples, a mesh is level within each lake. REQUIRES: the affine map
-/// can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does; for a
-/// field with a source also with kInput for shores whose coordinates are too large. Memory: as breaklines. Cost:
-/// O(samples in and around the lakes, and n log n for shores along n samples). Of a source, the rows of shores are read
-/// first, then the rows of lakes, once.
+/// can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does. For a
+/// field with a source, also fails with kInput for shores with coordinates that are too large. Memory: as breaklines.
+/// Cost: O(samples in and around the lakes, and n log n for shores along n samples). From a source, the rows of shores
+/// are read first, then the rows of lakes, once.
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options);
 
-/// The lakes of flatten_lakes(), with levels and shores; the field does not change. Options and failures as there, but
-/// no memory for samples is used. Cost: of a source, only the rows of shores are read.
+/// Returns the lakes of flatten_lakes(), with levels and shores; the field does not change. Options and failures are
+/// the same, but no memory for samples is used. Cost: from a source, only the rows of shores are read.
 Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const Line> lines,
                                      const WaterOptions& options);
 
@@ -80,14 +81,14 @@ struct FlatOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3
   /// Like WaterOptions::run. The limit includes the memory of the shores as breaklines. DEFAULT: no limit.
-  Run run = {};  ///< memory; progress: of the pass "flats"
+  Run run = {};  ///< memory, and progress of the pass "flats"
 };
 
-/// The flat areas of the raster: at least min_samples samples of one height, 4-connected. The field does not change.
-/// Shores run from sample to sample, around the cells and half cells whose corners belong to the area. With the shores
-/// as breaklines and vertices on samples, a mesh is level within each area. Areas are ordered by their first samples.
-/// An area that is nowhere two samples wide is omitted. Fails with kUsage for fewer than 3 samples, with kCancelled,
-/// and as the field's source does. Memory: 24 bytes for each horizontal run of samples of one height, in unfinished
+/// Finds the flat areas of the raster: at least min_samples 4-connected samples of one height. The field does not
+/// change. Shores run from sample to sample, around the cells and half cells whose corners belong to the area. With the
+/// shores as breaklines and vertices on samples, a mesh is level within each area. Areas are ordered by their first
+/// samples. An area that is nowhere two samples wide is omitted. Fails with kUsage for fewer than 3 samples, with
+/// kCancelled, and as the field's source does. Memory: 24 bytes for each horizontal run of equal samples in unfinished
 /// areas. Cost: O(samples); a source's rows are read once, from the top down.
 Result<std::vector<Lake>> find_flats(const OwnedHeightField& field, const FlatOptions& options);
 
@@ -108,37 +109,38 @@ struct RiverOptions {
   double tolerance = 0;
 };
 
-/// Gives each line of `lines` heights that never rise downstream. Each line flows from the end with the higher raster
-/// to the other end. The height of a point is the lowest of the raster's surface there and upstream. Rivers that share
-/// a vertex share its lowest height, so that a confluence is no step. In `lakes`, and less than a sample from them,
-/// rivers have the lake's level, even where that is a rise. `lakes`: from flatten_lakes() or find_flats() for this
-/// field.
+/// Gives each line of `lines` heights that never rise downstream. Each line flows from the end where the raster is
+/// higher to the other end. The height of a point is the lowest height of the raster's surface there and upstream.
+/// Rivers that share a vertex have the lowest of their heights there, so that a confluence has no step. In `lakes`, and
+/// less than a sample from them, rivers have the lake's level, even if they rise to it. `lakes`: from flatten_lakes()
+/// or find_flats() for this field.
 ///
 /// Parts outside the raster and in nodata have no heights. Rings, and lines without any height, are omitted. The raster
-/// does not change: hard breaklines below it become gorges a sample wide. Heights are float32. Fails with kUsage for a
-/// negative tolerance, and as the field's source does. REQUIRES: the affine map can be inverted. Cost: O(n log n) for
-/// lines and shores along n samples.
+/// does not change: in the mesh, hard breaklines below it become gorges one sample wide. Heights are float32. Fails
+/// with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map can be inverted.
+/// Cost: O(n log n) for lines and shores along n samples.
 Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options);
 
 // Cliffs: walls of buildings and quarries, where a raster steps between two samples.
 //
-// The raster does not define where between two samples a step is. A wall at an angle to the grid becomes a staircase,
-// and a mesh on samples follows each stair. But a straight line fits between the samples of all the stairs. Two such
-// lines, close together along the wall's top and foot, keep the surface on either side smooth. So a straight piece of
-// wall costs two triangles.
+// The raster does not define the position of a step between two samples. A wall at an angle to the grid becomes a
+// staircase, and a mesh on samples follows each stair. But a straight line fits between the samples of all the stairs.
+// With two such lines, close together along the wall's top and foot, the surface on either side stays smooth. So a
+// straight piece of wall costs two triangles.
 
 struct CliffOptions {
-  /// Neighbouring samples in a row or a column that differ by more are a cliff. In z units, above 0 and finite. Values
-  /// below twice the max error are of little use.
+  /// Neighbouring samples in a row or a column that differ by more than this form a cliff. In z units, above 0 and
+  /// finite. Values below twice the max error are of little use.
   double height = 0;
-  /// Max error of the future mesh, at least 0 and finite. Samples along a line differ from it in height by at most 0.9
-  /// of this. Refinement ensures the error bound in any case, but lines farther from the samples are of little use.
+  /// Max error of the future mesh, at least 0 and finite. Samples along a line differ in height from the line by at
+  /// most 0.9 of this. Refinement ensures the error bound in any case, but lines farther from the samples are of little
+  /// use.
   double max_error = 0;
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< lines that no wall may cross or touch
-  /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Walls that do
-  /// not fit fail with kMemory. DEFAULT: no limit.
+  /// For a field with a source: the memory limit of the process, and the bytes in use, as in SimplifyOptions. The call
+  /// fails with kMemory if the walls do not fit. DEFAULT: no limit.
   Run run = {};
 };
 
@@ -150,23 +152,23 @@ struct Cliffs {
   std::uint64_t vertices = 0;  ///< number of distinct vertices of the lines
 };
 
-/// Finds the walls of a raster, and two lines for each part worth its vertices. All samples of its upper side lie to
-/// the left of both lines (seen from above with rows downwards), and all samples of its lower side to the right. None
-/// lies on or between the lines, so walls change neither samples nor guarantees. Nodata samples make no cliffs. Two
-/// walls never share a point.
+/// Finds the walls of a raster, and makes two lines for each part of a wall that is worth its vertices. All samples on
+/// the upper side lie to the left of both lines (seen from above with rows downwards), and all samples on the lower
+/// side to the right. No sample lies on or between the lines, so walls change neither samples nor guarantees. Nodata
+/// samples form no cliffs. Two walls never share a point.
 ///
 /// Among all lines through a wall, those with the fewest vertices are chosen. Their vertices lie on cracks (the steps
 /// between two samples), or in cells where the wall turns. A part is worth its vertices if it needs fewer than three
-/// pairs of them for ten cracks. Fails with kUsage for options out of range, and as the field's source does. A source
-/// is read once from the top down; the lines are the same as for samples in memory. REQUIRES: the affine map can be
-/// inverted. Memory: 40 bytes a crack, 1000 a crack of the longest wall, and the lines. Cost: O(samples), and some 20
-/// µs a crack; one thread.
+/// pairs of vertices for ten cracks. Fails with kUsage for options out of range, and as the field's source does. A
+/// source is read once from the top down; the lines are the same as for samples in memory. REQUIRES: the affine map can
+/// be inverted. Memory: 40 bytes a crack, 1000 a crack of the longest wall, and the lines. Cost: O(samples), and some
+/// 20 µs a crack; one thread.
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options);
 
 // Ridges and valleys: the lines along which the raster's surface bends most.
 //
 // A mesh of few triangles lowers all crests and fills all valley beds, by up to its max error. Water then follows the
-// triangles instead of the terrain. Lines along crests and beds, as edges of the mesh, preserve them.
+// triangles instead of the terrain. Lines along crests and beds preserve them as edges of the mesh.
 //
 // Profiles identify ridges (profile recognition: Chang, Song & Hsu, Computers & Geosciences 24:1, 1998; the highest and
 // lowest samples of profiles: Peucker & Douglas, Computer Graphics and Image Processing 4:4, 1975). Four profiles pass
@@ -186,27 +188,27 @@ struct RidgeOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< no ridge is searched for near these lines
   bool are_kept = false;                           ///< the final mesh holds all lines at every effort
-  /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Ridges that do
-  /// not fit fail with kMemory. DEFAULT: no limit.
+  /// For a field with a source: the memory limit of the process, and the bytes in use, as in SimplifyOptions. The call
+  /// fails with kMemory if the ridges do not fit. DEFAULT: no limit.
   Run run = {};
 };
 
 struct Ridges {
   /// Soft lines for Features::breaklines, with vertices on samples, of kind kRidge or kKeptRidge.
   std::vector<Line> ridges, valleys;
-  std::uint64_t vertices = 0;  ///< number of vertices of the lines, shared ones counted once for each line
+  std::uint64_t vertices = 0;  ///< number of vertices of the lines; a shared vertex counts once for each line
 };
 
 /// Finds the ridges and valleys of a raster, in an order that depends on the raster only. Each line runs within a
-/// sample of the crest or bed samples that it represents, with as few vertices as that and the bound allow. Where one
-/// line joins another, both have a vertex. Lines of fewer than 8 samples are omitted. Negating all samples only
-/// exchanges ridges and valleys. A profile ends at nodata.
+/// sample of the crest or bed samples that it represents, with as few vertices as this distance and the bound allow.
+/// Where one line joins another, both have a vertex. Lines of fewer than 8 samples are omitted. Negating all samples
+/// only exchanges ridges and valleys. A profile ends at nodata.
 ///
 /// Fails with kUsage for options out of range, with kCancelled, and as the field's source does. A source is read four
 /// times from the top down; the lines are the same as for samples in memory. REQUIRES: the affine map can be inverted.
 /// Memory: some 50 bytes for each sample near a high or low one and, without a source, 6 bytes a sample. Cost:
-/// O(samples), and O(n log n) for the n samples near lines; some 0.1 to 0.3 s a million samples of terrain, up to 1 s
-/// of noise.
+/// O(samples), and O(n log n) for the n samples near lines; some 0.1 to 0.3 s per million samples of terrain, up to 1 s
+/// for noise.
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options);
 
 /// Walls, each represented by a pair of lines; see detect_cliffs().
@@ -224,12 +226,12 @@ struct RidgeGoals {
 /// error, tolerances or a budget. With a budget, simplify() searches for an error at every effort, and fits the
 /// features to the error of each run. It fails with kUsage for a budget too small for lines and outline.
 struct Features {
-  /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line keeps its heights,
-  /// a soft one follows the raster. Where a hard line passes through a sample of another height, the sample is set to
-  /// the line's height, and the guarantees hold for the changed samples (Simplified::edits). simplify() fails with
-  /// kInput for lines whose heights conflict, and names them. DEFAULT: none.
+  /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line has its own
+  /// heights, a soft one follows the raster. Where a hard line passes through a sample of another height, the sample is
+  /// set to the line's height, and the guarantees hold for the changed samples (Simplified::edits). simplify() fails
+  /// with kInput if the heights of lines conflict, and names the lines. DEFAULT: none.
   LineConstraints breaklines = {};
-  /// Lakes of flatten_lakes() or find_flats() for the field: their shores become lines, rivers flow into them.
+  /// Lakes of flatten_lakes() or find_flats() for the field: their shores become lines, and rivers flow into them.
   std::vector<Lake> lakes = {};
   std::vector<Line> rivers = {};                    ///< courses in x and y, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
@@ -237,10 +239,10 @@ struct Features {
   /// Samples that become vertices before the first scan, in this order, and are never removed. Samples outside of the
   /// valid data are skipped. DEFAULT: none.
   std::vector<SampleAt> points = {};
-  /// Polygons to which the surface, the domain of guarantee (2), is cut. Their rings become edges of the mesh, moved by
-  /// at most 1/512 sample (3/512 where lines cross). The edges follow the raster's heights between its samples to
-  /// within half of max_error (less than a sample from their vertices, within max_error). Samples outside are not
-  /// judged. simplify() fails with kInput where no surface lies in the polygons. DEFAULT: none.
+  /// The surface, which is the domain of guarantee (2), is cut to these polygons. Their rings become edges of the mesh,
+  /// moved by at most 1/512 sample (3/512 where lines cross). Between samples, the edges follow the raster's heights to
+  /// within half of max_error; less than a sample from their vertices, to within max_error. Samples outside are not
+  /// judged. simplify() fails with kInput if no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
 
   /// True if the mesh has lines.
@@ -253,7 +255,7 @@ struct Features {
 
 struct FeatureFitOptions {
   double max_error = 0;  ///< max error of the future mesh, in z units, at least 0 and finite
-  Run run = {};          ///< progress: of the pass "ridges"
+  Run run = {};          ///< progress of the pass "ridges"
 };
 
 /// The lines of a mesh for one max error, and their origins.
@@ -269,8 +271,8 @@ struct FittedFeatures {
 
 /// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact ones by at most half of the
 /// error. Walls avoid all these lines, and ridges also avoid the walls. The same features, field and error give the
-/// same lines. simplify() calls this function for each mesh that it builds; Simplified::features and lines_for hold the
-/// last result.
+/// same lines. simplify() calls this function for each mesh that it builds; Simplified::features and lines_for contain
+/// the last result.
 ///
 /// `field` and `features` are not needed after the call. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.

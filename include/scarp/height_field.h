@@ -124,12 +124,12 @@ inline double semi_minor(const Geodetic& geodetic) {
 std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic = {});
 
 /// The local frame of a raster in degrees: metres east and north of its centre sample (cols / 2, rows / 2), which is at
-/// 0, 0. `affine` maps samples to longitude and latitude, as Frame::affine does. Degrees become metres by two
-/// constants, the ellipsoid's radii of curvature at the centre. So the frame is affine, and a bound on the grid holds
-/// in the mesh. Lengths along the centre's parallel and meridian are true; elsewhere east-west lengths are scaled by
-/// cos φ_centre / cos φ. The cell is rounded so that float32 holds each sample's x and y exactly: by less than 0.03 %
-/// for 5,000 samples from the centre to the border. Needs no GDAL; read_height_field() makes the same frame from a
-/// file's CRS.
+/// 0, 0. `affine` maps samples to longitude and latitude, as Frame::affine does. Two constants, the ellipsoid's radii
+/// of curvature at the centre, convert degrees to metres. So the frame is affine, and a bound on the grid holds in the
+/// mesh. Lengths along the centre's parallel and meridian are true; elsewhere east-west lengths are scaled by cos
+/// φ_centre / cos φ. The cell is rounded so that float32 holds each sample's x and y exactly. With 5,000 samples from
+/// the centre to the border, this changes the cell by less than 0.03 %. Needs no GDAL; read_height_field() makes the
+/// same frame from a file's CRS.
 ///
 /// Frame::kind is kLocal, Frame::crs is empty, Frame::description states the centre and the cell. Fails with kUsage for
 /// fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole, and cells whose sides
@@ -160,7 +160,7 @@ struct Channel {
   double scale = 1;                ///< factor that makes its errors comparable with errors in z units; at least 0
 };
 
-/// Samples that are no array of floats: 16-bit values in memory, a file larger than memory.
+/// Samples that are not an array of floats, such as 16-bit values in memory or a file larger than memory.
 class SampleSource {
  public:
   virtual ~SampleSource() = default;
@@ -174,20 +174,21 @@ class SampleSource {
 };
 
 /// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major, and code k stands for the height
-/// heights[k], NaN for nodata. REQUIRES: `cols` codes to a row, a height for each code.
+/// heights[k], NaN for nodata. REQUIRES: `cols` codes in each row, and a height for each code.
 std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes, int cols, std::vector<float> heights);
 
 /// A height field that borrows its samples.
 ///
-/// Samples are row-major, `cols` to a row without padding, the first row at the top (north) of the raster. Sample (col,
-/// row) is the height at its pixel's centre. NaN, the infinities and samples equal to `nodata` are never heights.
+/// Samples are row-major, with `cols` in each row and no padding. The first row is at the top (north) of the raster.
+/// Sample (col, row) is the height at its pixel's centre. NaN, the infinities and samples equal to `nodata` are never
+/// heights.
 struct HeightField {
   const float* samples = nullptr;              ///< cols·rows values, owned by the caller, who keeps them alive
   int cols = 0;                                ///< at least 2
   int rows = 0;                                ///< at least 2
   std::optional<float> nodata = std::nullopt;  ///< DEFAULT: none besides NaN and ±infinity
-  Frame frame = {};  ///< position of the samples in the mesh. DEFAULT: cell size 1, first row at y = 0, y falls from
-                     ///< row to row
+  Frame frame = {};  ///< position of the samples in the mesh. DEFAULT: cell size 1, first row at y = 0, y decreases
+                     ///< from row to row
   /// Largest |given value − float32 sample| of data that does not fit float32 (int32, float64). Bounds are tightened by
   /// this much, so that they hold for the given values. DEFAULT: 0.
   double sample_rounding = 0;
@@ -195,7 +196,7 @@ struct HeightField {
   /// |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
   double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
-  /// The source of the samples, borrowed, if `samples` is null. simplify() on heights alone and measure() accept it;
+  /// The source of the samples, borrowed, if `samples` is null. simplify() on heights only and measure() accept it;
   /// functions that need the samples as one array fail with kUsage. DEFAULT: none.
   const SampleSource* source = nullptr;
 };
@@ -218,15 +219,15 @@ struct UndeclaredNodata {
 
 /// Signs that heights packed into colours are wrong: the colours were changed after packing, or are not packed heights.
 struct PackedDoubts {
-  /// Number of odd samples: their two neighbours in the row are close together, but differ from them by an eighth to
-  /// one and a half times the weight of the next colour, which changes there. 0 unless typical of interpolation or
-  /// lossy compression. In a large raster, only some rows are searched for interpolation.
+  /// Number of suspect samples. Both neighbours of such a sample in its row are close together, but differ from it by
+  /// an eighth to one and a half times the weight of the next colour, which changes there. 0 unless the result is
+  /// typical of interpolation or lossy compression. In a large raster, only some rows are searched for interpolation.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< largest such difference
-  std::string seems = {};  ///< another encoding, if most heights are impossible on earth as read, and plausible by it
+  std::string seems = {};  ///< another encoding with plausible heights, if most heights as read are impossible on earth
 };
 
-/// Missing samples, by ReadOptions::void_side.
+/// Counts of missing samples, for ReadOptions::void_side.
 struct VoidCount {
   std::uint64_t filled = 0;  ///< samples
   std::uint64_t left = 0;    ///< samples of larger voids and of voids at the raster's edge
@@ -242,17 +243,16 @@ struct RasterInfo {
   std::string sample_type;  ///< type in the file: "Int16", "Float32", …
   std::string crs;          ///< CRS of the file, such as "EPSG:4326", or WKT without a known authority; empty if none
   std::string crs_unit;     ///< unit of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
-  double crs_unit_in_metres = 0;     ///< 0 for degrees, and if there is no CRS
-  bool is_geographic = false;        ///< x and y of the file are degrees
-  std::string vertical;              ///< vertical datum of the heights, if the CRS names it: "EGM96 height"; else empty
-  bool is_ellipsoidal = false;       ///< true if the CRS declares ellipsoidal heights
-  std::string crs_with_heights;      ///< WKT of the CRS where `vertical` is set; else empty
-  std::string unit;                  ///< unit of z if it is known; else empty
-  double unit_in_metres = 1;         ///< length of the unit of z, known or assumed (HeightsIn); 0 for words that are no
-                                     ///< known unit
-  std::string file_unit;             ///< unit of the file's values, if known and different from `unit`; else empty
-  bool unit_is_assumed = false;      ///< true if the unit of z, or of the values converted to metres, is not declared
-  double scale = 1, offset = 0;      ///< declared by the file: value = scale · (stored value) + offset
+  double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
+  bool is_geographic = false;     ///< x and y of the file are degrees
+  std::string vertical;           ///< vertical datum of the heights, if the CRS names it: "EGM96 height"; else empty
+  bool is_ellipsoidal = false;    ///< true if the CRS declares ellipsoidal heights
+  std::string crs_with_heights;   ///< WKT of the CRS where `vertical` is set; else empty
+  std::string unit;               ///< unit of z if it is known; else empty
+  double unit_in_metres = 1;      ///< length of the unit of z, known or assumed (HeightsIn); 0 if its name is unknown
+  std::string file_unit;          ///< unit of the file's values, if known and different from `unit`; else empty
+  bool unit_is_assumed = false;   ///< true if the unit of z, or of the values converted to metres, is not declared
+  double scale = 1, offset = 0;   ///< declared by the file: value = scale · (stored value) + offset
   double z_scale = 1, z_offset = 0;  ///< height = z_scale · value + z_offset, by ReadOptions and the conversion to
                                      ///< metres
   std::optional<double> nodata;      ///< the nodata value used, as a value of the file
@@ -266,10 +266,9 @@ struct RasterInfo {
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< set if has_range
   std::vector<std::string> warnings;                ///< sentences for the user: infinities read as nodata, …
   VoidCount voids = {};                             ///< set if has_range, or for samples in memory
-  std::string view = {};       ///< the selection of ReadOptions::view from the files, in words; empty for one unchanged
-                               ///< raster
+  std::string view = {};       ///< description of the selection by ReadOptions::view; empty for one unchanged raster
   PackedDoubts packed = {};    ///< set for heights packed into colours
-  std::string depths = {};     ///< the reason why the values seem to be depths, which were not negated; else empty
+  std::string depths = {};     ///< the reason why the values, which were not negated, seem to be depths; else empty
   bool seems_degrees = false;  ///< true if x and y resemble degrees without a geographic CRS
 };
 
@@ -285,7 +284,7 @@ struct OwnedHeightField {
   /// Samples borrowed from the caller, used instead of `samples` and never changed. DEFAULT: none.
   const float* lent = nullptr;
 
-  /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
+  /// Borrows this object's samples: the view is valid while the object is alive and `samples` is not resized.
   HeightField view() const {
     const float* const held = lent != nullptr ? lent : samples.data();
     return {source ? nullptr : held, cols, rows, std::nullopt, frame, sample_rounding, {}, 1, source.get()};
@@ -299,8 +298,8 @@ struct OwnedHeightField {
   operator HeightField() const { return view(); }  // NOLINT: the function accepts both
 };
 
-/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, and for samples not in
-/// memory: use Measurement::heights for these.
+/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none. The same holds for
+/// samples that are not in memory: use Measurement::heights for them.
 struct HeightRange {
   static constexpr std::size_t kEnds = 6;
 
@@ -316,19 +315,19 @@ struct HeightRange {
 HeightRange height_range(const HeightField& field, int threads = 1);
 
 /// The heights at either end of the range that most likely are undeclared nodata. `scale`, `offset`: height = scale ·
-/// value + offset. The following values count as nodata, by the distance of the height from all others:
+/// value + offset. The following values count as nodata, depending on the distance of the height from all others:
 /// - a usual sign for nodata (-999, -10000, -32768; ±9999, ±99999, ±999999, ±32767, ±65535; beyond ±1e20), at least a
 ///   fifth of the others' range away;
 /// - 0, at least a twentieth of the range and 10 away, if a thousandth of the samples has it: the shore of a real sea
 ///   at 0 is not much higher;
-/// - another whole number, such as -99, at least the range away, if a thousandth of the samples, at least 10 and at
-///   most half of them have it;
+/// - another whole number, such as -99, at least the range away, if a thousandth of the samples (at least 10 of them,
+///   at most half) has it;
 /// - any other value, at least 50 times the range away, if at most a hundredth of the samples has it.
 /// The others must differ, and at most HeightRange::kEnds − 1 such heights are found at one end. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
-/// The map from samples to the coordinates of lines: those of the raster's file or, if it has none, x = col, y = rows −
-/// 1 − row.
+/// The map from samples to the coordinates of lines. These are the coordinates of the raster's file or, if it has none,
+/// x = col, y = rows − 1 − row.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples of a valid one (Euclidean, along the
@@ -348,8 +347,8 @@ struct SampleEdit {
   float before = 0, after = 0;
 };
 
-/// `source` with the edits of Simplified::edits applied: the samples for which the bound of a mesh with hard lines
-/// holds. `edits`: in raster order, of valid samples. Cost: that of a window, and a search for its first edit in each
+/// Returns `source` with the edits of Simplified::edits applied. The bound of a mesh with hard lines holds for these
+/// samples. `edits`: of valid samples, in raster order. Cost: that of a window, and a search for its first edit in each
 /// row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
@@ -361,9 +360,9 @@ void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 /// A line through points of a set: a contour, a ridge, the foot of a dam.
 struct PointLine {
-  std::vector<std::uint32_t> points;  ///< indices; at least two, successive ones differ; a ring ends with its first
+  std::vector<std::uint32_t> points;  ///< at least two indices; successive ones differ; a ring ends with its first
   std::string name;                   ///< for messages: "contours.gpkg feature 12"
-  bool keeps_vertices = false;        ///< all of its points become vertices, as those of breaklines; else as needed
+  bool keeps_vertices = false;        ///< all of its points become vertices, as with breaklines; false: only as needed
 };
 
 /// The points of one of ASPRS's classes: 2 is ground.
@@ -372,13 +371,13 @@ struct PointClass {
   std::uint64_t points = 0;
 };
 
-/// Facts about a LAS or LAZ file, and why points of it are not among those that were read: each counts once, in the
-/// order of the members.
+/// Facts about a LAS or LAZ file, and the numbers of its points that were not read, by reason. Each point counts once,
+/// for the first reason in the order of the members.
 struct LasFacts {
   std::string version;              ///< "1.4"
   int point_format = 0;             ///< 0 to 10
   std::uint64_t points = 0;         ///< number in the file
-  std::vector<PointClass> classes;  ///< by number: the points that are not withheld, read or not
+  std::vector<PointClass> classes;  ///< sorted by number: the points that are not withheld, read or not
   std::uint64_t withheld = 0, of_other_classes = 0, overlap = 0, of_other_returns = 0;
 };
 
@@ -386,11 +385,11 @@ struct LasFacts {
 struct PointSet {
   std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
   std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: none
-  /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are rings, too. All points
-  /// lie inside, by the rule of even and odd. From cut_to_boundary(). EMPTY: the surface ends at a hull.
+  /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are also rings. All points
+  /// lie inside, by the even-odd rule. From cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
-  /// Bounds of the first points, for PointOptions::tolerances; the others have none. Functions that omit or sort points
-  /// keep them. EMPTY: none.
+  /// Bounds of the first points, for PointOptions::tolerances; the other points have none. Functions that omit or sort
+  /// points keep each bound with its point. EMPTY: none.
   std::vector<float> tolerances;
   /// Boundaries in the file that do not end the surface, as read_lines() names them: "survey.xml:EG".
   std::vector<std::string> outlines;
@@ -404,7 +403,7 @@ struct PointSet {
   /// is_local.
   std::array<double, 6> to_source{0, 1, 0, 0, 0, 1};
   double unit_in_metres = 0;  ///< unit of x and y; 0 for degrees and unknown units
-  /// Metadata of z, as of a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit, z_scale, z_offset; and
+  /// Metadata of z, as for a raster's heights: unit, unit_in_metres, unit_is_assumed, file_unit, z_scale, z_offset; and
   /// crs_unit, crs_unit_in_metres of x and y in the file.
   RasterInfo heights = {};
   std::vector<std::string> warnings;
@@ -416,7 +415,7 @@ struct PointSet {
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 
   std::size_t size() const { return x.size(); }
-  /// The place of a point in the coordinates of the file, to rounding.
+  /// The position of a point in the coordinates of the file, except for rounding.
   std::array<double, 2> place_in_file(std::size_t i) const {
     return {to_source[0] + to_source[1] * x[i], to_source[3] + to_source[5] * y[i]};
   }

@@ -82,11 +82,11 @@ std::span<const MeshFormatTraits* const> mesh_formats();
 /// The row of a format. REQUIRES: `format` is a value of MeshFormat.
 const MeshFormatTraits& traits_of(MeshFormat format);
 
-/// The format by its name ("glb", "OBJ", "landxml", …) or by a path's extension (".xml" is LandXML); nothing if
-/// unknown.
+/// Finds the format by its name ("glb", "OBJ", "landxml", …) or by a path's extension (".xml" is LandXML). Returns
+/// nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
-/// The format of a mesh file for decode_mesh(), by the ending of its name and, if files of other kinds share that
-/// ending, by its first bytes. Nothing for other files.
+/// Finds the format of a mesh file for decode_mesh(), by the ending of its name and, if files of other kinds share that
+/// ending, by its first bytes. Returns nothing for other files.
 std::optional<MeshFormat> find_mesh_file(const std::string& path);
 
 struct MeshZones;
@@ -95,15 +95,15 @@ enum class Decode { kNone, kTerrarium, kMapbox };
 
 /// Several rasters read as one, or a part or a coarser version of a raster.
 struct RasterView {
-  /// Rasters that form a mosaic with the first one. Where several have a value, the last one counts; where none has,
-  /// the sample is missing. They share CRS, vertical datum, number of bands, unit and grid; each has its own sample
-  /// type, nodata value, mask, scale and offset. Rasters on both sides of the 180th meridian are placed side by side.
+  /// Rasters that form a mosaic with the first one. Where several have a value, that of the last one is used; where
+  /// none has a value, the sample is missing. They share CRS, vertical datum, number of bands, unit and grid; each has
+  /// its own sample type, nodata value, mask, scale and offset. Rasters on both sides of the 180th meridian are placed
+  /// side by side.
   std::vector<std::string> more = {};
   /// xmin, ymin, xmax, ymax in the units of the raster's CRS: only cells that overlap this rectangle are read.
   std::optional<std::array<double, 4>> extent = std::nullopt;
-  /// Approximate cell size, in the units of the CRS: k × k cells become one, whose sample is the mean of the valid
-  /// ones, with k such that the new cell is not larger. Surplus columns and rows at the right and the bottom are
-  /// omitted.
+  /// Approximate cell size, in the units of the CRS: k × k cells become one, with the mean of the valid samples. The
+  /// new cell is not larger than this size. Surplus columns and rows at the right and the bottom are omitted.
   std::optional<double> resolution = std::nullopt;
 
   bool is_whole() const { return more.empty() && !extent && !resolution; }
@@ -127,22 +127,22 @@ struct ReadOptions {
   /// that of the file or its vertical CRS; metres if `z_scale` converts it to metres; unknown with another factor.
   std::string z_unit = {};
   /// The unit of the field's heights. With a conversion to metres, RasterInfo::z_scale is the product of both factors.
-  /// Fails with kUsage if heights in no known unit must be converted.
+  /// Fails with kUsage if heights in an unknown unit must be converted.
   HeightsIn heights_in = HeightsIn::kFrame;
   /// Width of a cell in the mesh, for a raster without georeference or with crs "grid"; the frame is then centred on
   /// the raster. Fails with kUsage for any other frame. DEFAULT: 1, the grid frame.
   std::optional<double> cell_size = std::nullopt;
-  /// Memory::limit (0: the machine's memory), and progress. read_height_field() fails for a raster that needs more;
-  /// open_height_field() keeps only that much in memory.
+  /// Memory::limit (0: the machine's memory), and progress. read_height_field() fails for a raster that needs more
+  /// memory; open_height_field() uses only that much.
   Run run = {};
   /// open_height_field() reads a streamed raster once, for the range in its info. DEFAULT: false.
   bool with_range = false;
-  /// The samples are tolerances or weights, not heights: a raster without any value is no error, and the warning about
-  /// infinities names the file. DEFAULT: false.
+  /// The samples are tolerances or weights, not heights: a raster without any value is not an error, and the warning
+  /// about infinities names the file. DEFAULT: false.
   bool as_values = false;
   /// Nodata within this many samples of a height is filled by fill_nodata(), and then counts as heights; the range in
-  /// the info is that before filling. Fails with kInput if the samples as floats exceed the memory limit. DEFAULT: 0,
-  /// none is filled.
+  /// the info is the one before filling. Fails with kInput if the samples as floats exceed the memory limit. DEFAULT:
+  /// 0, none is filled.
   double fill_distance = 0;
   /// Enclosed voids (8-connected nodata away from the raster's edge) of at most this many samples a side are filled as
   /// by fill_nodata(), in memory or while windows are read: RasterInfo::voids. DEFAULT: 0, none is filled.
@@ -153,17 +153,17 @@ struct ReadOptions {
   RasterView view = {};
 };
 
-/// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM. GDAL reads all else from any path or URL
-/// that it opens (also /vsicurl/, /vsizip/, http:// and https://), except HDF4, whose library crashes on damaged files.
-/// Standard input ("-") and pipes are copied to an unnamed file in the folder for temporary files. Nodata (declared,
-/// overridden, mask band, alpha, NaN, ±infinity) becomes NaN. Fails with kInput: missing, not a raster, truncated,
-/// fewer than 2×2 samples, band out of range, no valid sample; kUsage for a CRS that is unknown or has no
-/// transformation.
+/// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM. GDAL reads all other formats from any path
+/// or URL that it opens (also /vsicurl/, /vsizip/, http:// and https://), except HDF4, whose library crashes on damaged
+/// files. Standard input ("-") and pipes are copied to an unnamed file in the folder for temporary files. Nodata
+/// (declared, overridden, mask band, alpha, NaN, ±infinity) becomes NaN. Fails with kInput for a file that is missing,
+/// truncated or not a raster, fewer than 2×2 samples, a band out of range, and if no sample is valid; with kUsage for a
+/// CRS that is unknown or has no transformation.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// The samples next to a part of a raster, for Border::beyond: those of the raster or mosaic around a field that
-/// read_height_field() read with an extent (ReadOptions::view). Unknown where the raster ends, and without an extent.
-/// Nodata is not filled. Fails as read_height_field().
+/// The samples next to a part of a raster, for Border::beyond. The part is a field that read_height_field() read with
+/// an extent (ReadOptions::view); the samples are those of the raster or mosaic around it. Unknown where the raster
+/// ends, and without an extent. Nodata is not filled. Fails as read_height_field().
 Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
                                 int rows);
 
@@ -182,7 +182,7 @@ std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInf
 /// True if ReadOptions::crs requests a frame in space: "enu" or a geocentric CRS. False in a build without GDAL.
 bool is_in_space(const std::string& crs);
 
-/// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing if it is unknown, and in a build without GDAL.
+/// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing for an unknown CRS, and in a build without GDAL.
 std::optional<std::string> projection_text(const std::string& crs);
 
 /// Opens one raster of any size, for simplify() and measure(). If its samples as floats (4 bytes each) fit the memory
@@ -193,10 +193,10 @@ std::optional<std::string> projection_text(const std::string& crs);
 /// twice a pass, else again for every few rows.
 ///
 /// A streamed raster has no range in its info unless options.with_range is set. Its infinities are nodata without a
-/// warning, and a file without any height is no error. Samples that may not fit float32 (32-bit and larger integers,
-/// float64, scaled ones) are always read once to find sample_rounding. The samples are those of read_height_field().
-/// Fails as read_height_field() does, also for a PGM or STM larger than the memory limit, since these are read as a
-/// whole.
+/// warning, and a file without any height is not an error. Samples that may not fit float32 (32-bit and larger
+/// integers, float64, scaled ones) are always read once to find sample_rounding. The samples are those of
+/// read_height_field(). Fails as read_height_field() does, also for a PGM or STM larger than the memory limit, since
+/// these are read as a whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels.
@@ -216,13 +216,13 @@ struct OwnedChannels {
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
 /// Longitude and latitude in degrees of a position in a CRS (as in RasterInfo and PointSet): in WGS 84 if PROJ has a
-/// transformation to it, else on the CRS's own ellipsoid. Nothing if the CRS is empty or unknown, if PROJ has no
-/// transformation, and in a build without GDAL.
+/// transformation to it, else on the CRS's own ellipsoid. Returns nothing if the CRS is empty or unknown, if PROJ has
+/// no transformation, and in a build without GDAL.
 std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double x, double y);
 
-/// Nothing if two rasters lie on the same grid; else the difference, as the second half of a sentence ("is 10 x 20
-/// samples instead of 30 x 40", "is in EPSG:32611 instead of EPSG:4326", "begins at …"). A raster without georeference
-/// fits any raster of its size.
+/// Returns nothing if two rasters lie on the same grid; else the difference, as the second half of a sentence ("is 10 x
+/// 20 samples instead of 30 x 40", "is in EPSG:32611 instead of EPSG:4326", "begins at …"). A raster without
+/// georeference fits any raster of its size.
 std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
                                                 int other_cols, int other_rows);
 
@@ -252,7 +252,7 @@ enum class RasterFormat { kGeoTiff, kPgm };
 Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, RasterFormat format);
 
 /// A GeoTIFF, with the bytes of encode_raster(), for a raster larger than memory. Rows are added sequentially to a file
-/// with a temporary name, which write_files() renames; otherwise the file is removed.
+/// with a temporary name, which write_files() renames; without this call, the file is removed.
 class RasterFile {
  public:
   /// Fails as write_file() and encode_raster() do.
@@ -313,19 +313,20 @@ struct EncodeOptions {
 /// 2DM and LandXML more than 2³¹ − 1 vertices or triangles; in LandXML degrees, a unit unknown to it, or heights in
 /// another unit than x and y.
 ///
-/// PLY has float32 positions if float32 holds every one exactly, as in the local frame; else, and with
-/// `double_positions`, doubles. Meshes of turn_y_up() can be written as OBJ, PLY or STL; decode_mesh() turns them back.
+/// PLY has float32 positions if float32 holds each of them exactly, as in the local frame; otherwise, and with
+/// `double_positions`, it has doubles. Meshes of turn_y_up() can be written as OBJ, PLY or STL; decode_mesh() turns
+/// them back.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, const EncodeOptions& options = {});
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]. Positions
 /// are offsets from the origin of the first object, rounded to float32, and read back the same. The file's other
 /// metadata is that of the first object. The unit is the millimetre if metadata["placement"] shows that the solid was
-/// placed (place_mesh()), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold after rounding
+/// placed (place_mesh()), else the metre. Fails with kOutput for a mesh that is not a closed 2-manifold after rounding
 /// (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// Joins GLB files, levels of detail of one object with the finest first, to one file by MSFT_lod. Its nodes are
 /// NAME_LOD0, NAME_LOD1 …; the scene holds the first node, which refers to the others. Level k, from 0, is shown while
-/// it covers at least ratio^(−2 (k + 1)) of the screen, the last level always. REQUIRES: encode_mesh() made the files;
-/// `ratio` above 1. Fails with kOutput above 4 GiB.
+/// it covers at least ratio^(−2 (k + 1)) of the screen; the last level is always shown. REQUIRES: encode_mesh() made
+/// the files; `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
 /// Joins GLB files side by side to one file: the scene holds all nodes, and the metadata is that of the first file.
 /// REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
@@ -340,15 +341,15 @@ struct MeshFileAxes {
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors,
                          MeshFileAxes* axes = nullptr);
 
-/// Writes encode_mesh() to a temporary name next to `path`, then renames it; no file remains on failure. Fails with
-/// kOutput, also if `path` exists and `overwrite` is false.
+/// Writes the bytes of encode_mesh() to a temporary file next to `path`, then renames it; no file remains on failure.
+/// Fails with kOutput, also if `path` exists and `overwrite` is false.
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format = {},
                         bool overwrite = true);
 /// Reads a file by decode_mesh().
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes = nullptr);
 
 /// Writes bytes to a temporary name next to `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
-/// Fails with kOutput, with no file remaining; also if `path` exists and `overwrite` is false. Symbolic links are
+/// Fails with kOutput, also if `path` exists and `overwrite` is false; no new file then remains. Symbolic links are
 /// followed, even to a missing file; an existing file keeps its permissions. Standard output ("-", /dev/stdout), and
 /// existing devices and pipes, are written directly; a pipe without a reader fails with kOutput after two seconds. A
 /// program should ignore SIGXFSZ to receive "file too large" as an error instead of being killed.
@@ -356,10 +357,11 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
 struct FileBytes {
   std::string path;
   std::span<const std::uint8_t> bytes;
-  RasterFile* raster = nullptr;  ///< in place of bytes: a finished file, created for the path
+  RasterFile* raster = nullptr;  ///< instead of bytes: a finished file, created for the path
 };
-/// write_file() for several files that belong together. All are written to temporary names before the first is renamed,
-/// so a full disk, a read-only folder or an existing name leaves none of them. Devices and pipes are written last.
+/// write_file() for several files that belong together. All are written to temporary names before the first is renamed.
+/// So none of them remains if the disk is full, the folder is read-only or a name exists. Devices and pipes are written
+/// last.
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// Reads the whole file (or pipe). Fails with kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
@@ -372,25 +374,26 @@ std::vector<std::string> list_files(const std::string& path);
 /// separate.
 std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
-/// Returns of a laser's pulse. A point without numbers of returns is the only one.
+/// Returns of a laser pulse. A point without return numbers counts as the only return.
 enum class PointReturns { kAll, kFirst, kLast, kOnly };
 
-/// The points of a LAS file that are read. DEFAULT: all but those that the file marks as withheld.
+/// The points of a LAS file that are read. DEFAULT: all points except those marked as withheld.
 struct PointChoice {
-  std::vector<std::uint8_t> classes = {};  ///< numbers of ASPRS: 2 for ground. EMPTY: all
+  std::vector<std::uint8_t> classes = {};  ///< ASPRS numbers: 2 for ground. EMPTY: all
   PointReturns returns = PointReturns::kAll;
-  bool overlap = true;    ///< points in the overlap of flight lines: marked so, or of class 12 in formats 0 to 5
+  bool overlap = true;    ///< points in the overlap of flight lines: marked as such, or of class 12 in formats 0 to 5
   bool withheld = false;  ///< points to be treated as deleted
 
   bool operator==(const PointChoice&) const = default;
 };
 
 struct ReadPointsOptions {
-  /// Layers, separated by commas: of a vector file, a drawing (DXF), or surfaces of LandXML, "CgPoints" being its
-  /// survey points. DEFAULT: the first one with points, else with lines; of a drawing or LandXML the only one.
+  /// Layers of a vector file or a drawing (DXF), or surfaces of LandXML, separated by commas; "CgPoints" means
+  /// LandXML's survey points. DEFAULT: the first layer with points, else with lines; for a drawing or LandXML, the only
+  /// one.
   std::string layer = {};
-  /// Column or attribute with the height. DEFAULT: the third coordinate. If it is missing or 0 everywhere, an attribute
-  /// named z, height, elevation, elev, h, alt, ele, hoehe …, if any.
+  /// Column or attribute with the height. DEFAULT: the third coordinate. If that is missing or 0 everywhere: an
+  /// attribute named z, height, elevation, elev, h, alt, ele, hoehe …, if any.
   std::string z_field = {};
   std::string crs =
       {};  ///< "source", "local" or a CRS, as ReadOptions::crs; DEFAULT: local metres for degrees, else source
@@ -398,50 +401,51 @@ struct ReadPointsOptions {
   /// The contents of a text file's columns: "number,northing,easting,height,code", or as letters "pnezd"; - for an
   /// unused column. DEFAULT: the names in the header, else guessed from the columns.
   std::string columns = {};
-  /// Points with this height are omitted and counted, as are points whose height is empty or no finite number. NaN:
-  /// only the latter. DEFAULT: the call fails if a height is missing.
+  /// Points with this height are omitted and counted, as are points with an empty or non-finite height. NaN: only the
+  /// latter. DEFAULT: the call fails if a height is missing.
   std::optional<double> nodata = {};
   /// Heights and their unit, as in ReadOptions. DEFAULT of z_unit: the unit in the name of the column or attribute
   /// ("elev_ft", "Elevation (mm)"), else that of the vertical CRS, else that of x and y.
   double z_scale = 1, z_offset = 0;
   std::string z_unit = {};
   HeightsIn heights_in = HeightsIn::kFrame;
-  /// kLocal, for points without `crs`: x and y in units other than metres become local metres. x and y in metres do not
-  /// change; the caller moves them to local_origin(). For `heights_in` both frames are local.
+  /// With kLocal and without `crs`, x and y in units other than metres become local metres. x and y in metres do not
+  /// change; the caller moves them to local_origin(). `heights_in` treats both frames as local.
   DefaultFrame default_frame = DefaultFrame::kMetric;
-  /// xmin, ymin, xmax, ymax in the file's own coordinates: only the points in this rectangle, its sides included. Of a
-  /// COPC file only the parts that it needs are read. kUsage with lines. DEFAULT: all points.
+  /// xmin, ymin, xmax, ymax in the file's own coordinates: only points in this rectangle, including its sides, are
+  /// read. From a COPC file, only the necessary parts are read. Fails with kUsage for lines. DEFAULT: all points.
   std::optional<std::array<double, 4>> extent = std::nullopt;
-  PointChoice choice = {};  ///< kUsage for files of other formats, unless it is the default
+  PointChoice choice = {};  ///< for LAS and LAZ; else fails with kUsage unless it is the default
   int threads = 0;          ///< for LAS and LAZ; 0: all cores. Never changes the points. DEFAULT: 0.
 };
 
-/// Reads points from text with columns (CSV, XYZ), from LAS and LAZ (versions 1.0 to 1.4, point formats 0 to 10,
-/// COPC; of a folder all) and from LandXML (survey points; points, breaklines and contours of a surface, else its TIN)
-/// by Scarp's own readers, and from all else (GeoPackage, GeoJSON, Shapefile, DXF, …) by GDAL. Columns are separated by
-/// commas, semicolons, tabs or blanks; decimal commas are read unless commas separate. A header line names the columns;
-/// else the first three, after a column of consecutive numbers if any, are x, y, z. Lines that begin with
-/// #, % or // are comments. If neither header nor values identify the northing, the call fails and names `columns`. The
-/// vertices of lines, such as contours with the height as an attribute or third coordinate, are also points, and
-/// PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails with kInput: missing, empty, a
-/// line without three numbers, a value that is not finite, a feature without a height (names the line or feature),
-/// polygons, a layer without points and lines, a damaged or truncated LAS file.
+/// Reads points. Scarp's own readers read text with columns (CSV, XYZ), LAS and LAZ (versions 1.0 to 1.4, point formats
+/// 0 to 10, COPC; all files of a folder), and LandXML (survey points; points, breaklines and contours of a surface,
+/// else its TIN). GDAL reads all other formats (GeoPackage, GeoJSON, Shapefile, DXF, …). Columns are separated by
+/// commas, semicolons, tabs or blanks; decimal commas are accepted unless commas separate columns. A header line names
+/// the columns. Without one, the first three columns, after one of consecutive numbers if any, are x, y, z. Lines that
+/// begin with #, % or // are comments. If neither header nor values identify the northing, the call fails and names
+/// `columns`. The vertices of lines, such as contours with the height as an attribute or third coordinate, are also
+/// points, and PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails with kInput for a
+/// missing or empty file, a line without three numbers, a value that is not finite, a feature without a height (names
+/// the line or feature), polygons, a layer without points and lines, and a damaged or truncated LAS file.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
 /// True if `path` names points rather than a raster, by its ending in upper or lower case: .las .laz .csv .tsv .xyz
 /// .geojson .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it
 /// holds a raster; LandXML and DXF without triangles; a folder of LAS and LAZ files without rasters. Text with columns
 /// is a raster if its points are the nodes of one, in any order, possibly with some missing. No point may then be off
-/// the lattice or a duplicate. Two of three points must have neighbours in both directions, and a twentieth of all
+/// the lattice or a duplicate. Two thirds of the points must have neighbours in both directions, and a twentieth of all
 /// nodes must be points.
 bool is_point_file(const std::string& path);
 
-/// For signal handlers: the current temporary names of write_file() and write_files(), for unlink(), in kPendingOutputs
-/// slots; an unused slot is empty. With more files, the first names only. Points to a static buffer; async-signal-safe.
+/// For signal handlers that call unlink(): the current temporary names of write_file() and write_files(), in
+/// kPendingOutputs slots; an unused slot is empty. With more files, only the first names are returned. Points to a
+/// static buffer; async-signal-safe.
 inline constexpr int kPendingOutputs = 128;
 const char* pending_output(int place = 0);
-/// For signal handlers: the state of renaming in write_files(). A program that ends while it is kNow creates only some
-/// of the files. Async-signal-safe.
+/// For signal handlers: the state of renaming in write_files(). A program that ends while the state is kNow creates
+/// only some of the files. Async-signal-safe.
 enum class Naming { kNotYet, kNow, kDone };
 Naming outputs_naming();
 
@@ -465,16 +469,16 @@ struct GlbImage {
 
 struct GlbOptions {
   /// Quantises (KHR_mesh_quantization) and compresses (EXT_meshopt_compression, version 0 of the codec). Positions do
-  /// not change: x and y are 16-bit multiples of at least 1/256 of `cell`, z of a power of two. A mesh or an axis that
-  /// does not fit remains float32, and is compressed too. simplify() with Output::lattice makes meshes that fit.
-  /// Texture coordinates (16 bits), normals (12 significant bits a component) and colours (16 bits, linear) are
-  /// rounded. Triangles and vertices are ordered for the fewest bytes.
+  /// not change: x and y are 16-bit multiples of at least 1/256 of `cell`, and z is a 16-bit multiple of a power of
+  /// two. A mesh or an axis that does not fit remains float32, and is also compressed. simplify() with Output::lattice
+  /// makes meshes that fit. Texture coordinates (16 bits), normals (12 significant bits a component) and colours (16
+  /// bits, linear) are rounded. Triangles and vertices are ordered for the fewest bytes.
   bool compress = false;
   /// Sides of a cell of the raster along x and y, of either sign: Frame::affine[1] and [5]. DEFAULT: none.
   std::array<double, 2> cell{0, 0};
   GlbImage base_color = {};  ///< draped over the mesh by its uvs; without it, a mesh with uvs gets one white pixel
-  /// Tangent-space normals by the mesh's uvs. Every vertex then has the normal (0, 0, 1) and the tangent (1, 0, 0), in
-  /// place of Mesh::normals. So red is x, green y, blue z of the surface's normal for all triangles.
+  /// Tangent-space normals by the mesh's uvs. Every vertex then has the normal (0, 0, 1) and the tangent (1, 0, 0),
+  /// instead of Mesh::normals. So red, green and blue are x, y and z of the surface's normal for all triangles.
   GlbImage normal_map = {};
   int threads = 1;  ///< 0: all cores. Never changes the bytes. DEFAULT: 1.
 };
@@ -482,8 +486,8 @@ struct GlbOptions {
 /// True if this build can `compress`: it has libmeshoptimizer.
 bool can_compress_glb();
 
-/// The bytes of a GLB file; encode_mesh() does the same without options. Fails with kOutput as encode_mesh() does, for
-/// images without uvs, and for `compress` if positions are neither on the lattice nor float32, or without
+/// The bytes of a GLB file; encode_mesh() returns the same without options. Fails with kOutput as encode_mesh() does,
+/// for images without uvs, and for `compress` if positions are neither on the lattice nor float32, or without
 /// libmeshoptimizer; with kInput if memory runs out.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
 
@@ -497,10 +501,11 @@ struct Drape {
 };
 
 /// Reads an image of 8 bits (grey, a palette, or red green blue; alpha 0 and nodata are no colour) and resamples it
-/// bilinearly to the raster's area, from any CRS and grid. `size`: pixels on the longer side; 0: one for each pixel of
-/// the file on the raster, at most 8192. An image without georeference is stretched over a raster without one, and,
-/// with a warning, over any raster with as many samples as it has pixels. By GDAL. Fails with kInput: no such file, not
-/// of 8 bits, one of the two without georeference, not on the raster, a CRS without a transformation.
+/// bilinearly to the raster's area, from any CRS and grid. `size`: pixels on the longer side; 0: as many as the file
+/// has on the raster, at most 8192. An image without georeference is stretched over a raster without one, and, with a
+/// warning, over any raster with as many samples as it has pixels. Uses GDAL. Fails with kInput for a missing file, an
+/// image not of 8 bits or not on the raster, a CRS without a transformation, and otherwise if one of the two has no
+/// georeference.
 Result<Drape> read_drape(const std::string& path, const RasterInfo& raster, int cols, int rows, int size = 0,
                          const Run& run = {});
 

@@ -36,9 +36,9 @@ enum class LineKind : std::uint8_t {
   kBreakline,  ///< remains a chain of edges
   kRiver,      ///< the same, but yields
   /// The following are found in the raster. They are inserted with all other lines before the surface is refined, in
-  /// the greedy order. kWall and kRidge are only a start: from normal effort on, their edges may change, and their
-  /// vertices may be removed, or moved if vertices are free. They do not change if high effort must keep vertices on
-  /// samples.
+  /// the greedy order. kWall and kRidge lines are only a start: efforts above fast may change their edges, and may
+  /// remove their vertices, or move them if vertices are free. These lines do not change if high effort must keep
+  /// vertices on samples.
   kWall,       ///< along the top or foot of a wall (detect_cliffs()): yields, and never changes a sample
   kRidge,      ///< a ridge or valley (detect_ridges()), a preference
   kKeptRidge,  ///< a ridge or valley whose edges remain
@@ -49,7 +49,7 @@ struct Line {
   /// unknown height (soft line). A ring ends with its first point and has at least four.
   std::vector<std::array<double, 3>> points;
   LineRole role = LineRole::kLine;
-  std::uint32_t polygon = kNoPolygon;  ///< common to the rings of a polygon; counts from 0 in a LineSet
+  std::uint32_t polygon = kNoPolygon;  ///< number of the polygon of this ring, from 0 in a LineSet
   std::string name;                    ///< for messages: "shores.gpkg:lakes feature 12"
   LineKind kind = LineKind::kBreakline;
 
@@ -102,7 +102,7 @@ struct Cutline {
 /// The breakline vertex, as given, farthest above or below the raster; distances of lines that are 0 everywhere count
 /// tenfold.
 struct FarthestLine {
-  std::string name;         ///< name of the line; empty: none has heights
+  std::string name;         ///< name of the line; empty: no line has heights
   double distance = 0;      ///< in z units
   bool is_at_zero = false;  ///< all its heights are 0
 };
@@ -117,48 +117,48 @@ struct ReadLinesOptions {
   std::string z_field = {};
   bool ignore_z = false;  ///< all lines are soft. DEFAULT: false.
   ProgressCallback progress = {};
-  /// The unit of x and y where `crs` is empty, in metres: LandXML of another unit is refused. DEFAULT: 0, unknown.
+  /// The unit of x and y in metres, if `crs` is empty: LandXML in another unit is rejected. DEFAULT: 0, unknown.
   double unit_in_metres = 0;
 };
 
 /// Reads the lines and polygons of one layer, by GDAL: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, DXF, CSV with WKT, …
 /// `path` is a file, a URL or a /vsi… name. A layer may follow a colon: "dem.gpkg:ridges". Without a layer name, the
-/// file must have exactly one layer for lines or polygons. Of LandXML, the layers are surfaces, whose boundaries become
-/// polygons without heights: outer ones and islands, with voids as holes.
+/// file must have exactly one layer for lines or polygons. The layers of LandXML are surfaces. Their boundaries become
+/// polygons without heights: outer boundaries and islands, with voids as holes.
 ///
-/// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
-/// transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the requested CRS.
-/// Heights do not change; NaN heights are interpolated between the other heights of the line. A layer without CRS is
-/// assumed to be in the requested CRS. Points, features without geometry, and lines and rings of no extent are omitted
-/// and counted. Warnings report all of this.
+/// Multilines, multipolygons and collections are split into their parts; arcs become chords of at most 4 degrees. x and
+/// y are transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the requested
+/// CRS. Heights do not change; NaN heights are interpolated between the other heights of the line. A layer without CRS
+/// is assumed to be in the requested CRS. Points, features without geometry, and lines and rings of no extent are
+/// omitted and counted. Warnings report all of this.
 ///
-/// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, no layer or several
-/// suitable ones (they are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a
-/// vertex without coordinates in the requested CRS, a missing attribute, or an attribute that is no finite number;
-/// kUsage for a requested CRS unknown to GDAL; kCancelled. Cost: a few tenths of a second for a million vertices of a
-/// GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
+/// Error messages name the file, layer and feature. Fails with kInput for a missing file or layer, no suitable layer or
+/// several (which are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a vertex
+/// without coordinates in the requested CRS, a missing attribute, or an attribute that is not a finite number; with
+/// kUsage for a requested CRS unknown to GDAL; with kCancelled. Cost: a few tenths of a second for a million vertices
+/// of a GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
 /// The lines of several files as one set, without path and CRS; polygons are numbered across files. Fails as
 /// read_lines() for the first file that fails.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
 
-/// Fails with kInput unless all lines are rings of polygons. For the sentence: `user`, the option that needs polygons
-/// ("--water"), and `otherwise`, the option that accepts lines ("--rivers"), or empty.
+/// Fails with kInput unless all lines are rings of polygons. The message names `user`, the option that needs polygons
+/// ("--water"), and `otherwise`, the option that accepts lines ("--rivers"), unless empty.
 Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise = {});
 
-/// read_lines(), with heights in the unit of the values in the file of `raster`, before its z_scale and z_offset.
-/// Heights in another unit, by the name of their attribute ("elev_ft"), else by the vertical CRS of the layer, are
-/// converted, with a warning. Same failures and cost.
+/// Like read_lines(), with heights in the unit of the values in the file of `raster`, before its z_scale and z_offset.
+/// Heights in another unit are converted, with a warning. Their unit is that in the name of their attribute
+/// ("elev_ft"), else that of the layer's vertical CRS. Same failures and cost.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options,
                            const RasterInfo& raster);
 
 /// The union of polygons, with its outline moved inwards by `distance`, outwards if negative. Corners that move away
-/// become round, with arcs as chords of 90 / 8 degrees. `sample`, the side of a sample, prevents edges far below a
-/// sample, which need many tiny triangles: vertices that the outline does not need within a 256th of it and an eighth
-/// of the distance are removed. For distances below it, corners remain pointed, at most twice as far away. `unit`: the
-/// lengths of one unit of x and of y, in the unit of `distance`, above 0. The result may be empty: polygons narrower
-/// than twice the distance vanish. By GDAL and GEOS, in double arithmetic. Fails with kUsage in a build without one of
-/// them, with kInput if GEOS fails.
+/// become round, with arcs as chords of 90 / 8 degrees. `sample` is the side of a sample. Since edges far below a
+/// sample need many tiny triangles, vertices that the outline does not need within a 256th of a sample and an eighth of
+/// the distance are removed. For distances below a sample, corners remain pointed, at most twice as far away. `unit`:
+/// the lengths of one unit of x and of y, in the unit of `distance`, above 0. The result may be empty: polygons
+/// narrower than twice the distance vanish. Uses GDAL and GEOS, in double arithmetic. Fails with kUsage if the build
+/// lacks one of them, with kInput if GEOS fails.
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
                                          const std::array<double, 2>& unit = {1, 1}, double sample = 0);
 
@@ -177,7 +177,7 @@ struct MaskedOutside {
 
 /// Makes all samples outside the polygons nodata: a cut along the cells of the grid, for use where a cut along the
 /// polygons is not possible. A field not in memory gets a source that masks samples on reading; the field is read once,
-/// to count. `info`, if without a range, then has that of the heights before the cut. Fails as the field's source and
+/// to count. If `info` has no range, it receives that of the heights before the cut. Fails as the field's source and
 /// with kCancelled. REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
 Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline,
                                    const ProgressCallback& progress = {});

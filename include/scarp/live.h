@@ -40,12 +40,14 @@ struct LiveOptions {
   /// Place of the field's first sample on the lattice of cells; a lattice line of cells runs through sample (0, 0).
   /// A field that was scrolled equals a new field at its place.
   SampleAt place = {};
-  /// Budget: after every change the field has at most so many triangles, and mostly at least 98 % of them, unless fewer
-  /// keep max_error. For it the cells' bounds rise and fall, one cell after the other, in steps of 19 %; those of any
-  /// two cells differ by one step at most. LiveField::max_error() is the result. Not with tolerances. DEFAULT: none.
+  /// Budget: the largest number of triangles after every change. The cells' bounds rise and fall for it, one cell after
+  /// the other, in steps of 19 %; the bounds of any two cells differ by one step at most. LiveField::max_error() is the
+  /// result. Fields of 50 cells or more mostly use at least 98 % of the budget, unless fewer triangles keep max_error
+  /// or reproduce the samples; where one cell has many of the triangles, it may be less. Not with tolerances. DEFAULT:
+  /// none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
-  /// LiveField::level() of another field, from which the bounds start: with its samples the mesh is the same. DEFAULT:
-  /// found from the heights.
+  /// LiveField::level() of another field of this size: with its samples the mesh is the same. The first search for the
+  /// budget is then omitted, unless the mesh exceeds it. DEFAULT: found from the heights.
   std::optional<std::int64_t> level = std::nullopt;
   /// The norm over heights and channels, as Goals::norm, for fields with channels.
   Norm norm = Norm::kSum;
@@ -112,9 +114,9 @@ struct LiveChanges {
 /// heights without a channel's value; those of simplify(). The field is then unchanged.
 ///
 /// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
-/// cell's size); independent of the size of the field, except that a budget makes other cells anew, mostly a few, where
-/// the count leaves its range. That of scroll(): the cells along the field's border. That of
-/// changes(): O(cells of the field).
+/// cell's size); independent of the size of the field. Where the count of triangles leaves the range of a budget, other
+/// cells are made anew: mostly a few, after a change of the whole field all of them several times. That of scroll():
+/// the cells along the field's border. That of changes(): O(cells of the field).
 /// Memory: 4 bytes a sample (8 with tolerances), 4 more for each channel, and the cells' meshes.
 class LiveField {
  public:

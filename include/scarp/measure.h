@@ -37,17 +37,17 @@ struct MeasureOptions {
   double coverage_tolerance = 1.0 / 256;
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;
-  /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: do not.
+  /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: none are collected.
   std::optional<double> collect_above = std::nullopt;
   /// Empty, or cols·rows per-sample tolerances (+infinity: none). `Measurement::over_tolerance` counts the samples
   /// whose error is above their tolerance; they are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
-  /// The same, read in windows, in place of `tolerance`. Borrowed. DEFAULT: none.
+  /// The same, read in windows, instead of `tolerance`. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
   /// The cutline of the mesh. Samples in a polygon, farther than 1/64 sample from its rings, must be covered. Samples
   /// nearer to the rings, on either side, are judged if covered. All others are not judged. Edges along the rings are
-  /// no gaps. The rings are used as given, not as rounded in the mesh. For scattered points only
-  /// gaps are found by it: omit points outside by drop_outside(). Borrowed. DEFAULT: null, the whole domain.
+  /// not gaps. The rings are used as given, not as rounded in the mesh. For scattered points the cutline affects only
+  /// gaps: remove points outside by drop_outside(). Borrowed. DEFAULT: null, the whole domain.
   const Cutline* cutline = nullptr;
   /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. If its
   /// border is one loop, no open edge is a gap. DEFAULT: false.
@@ -66,8 +66,8 @@ struct Offender {
 
 /// Each sample is counted once; a sample on a shared edge counts with the larger error of its triangles. Errors are
 /// vertical, mesh − sample, in z units. In a frame in space they are distances along the sample's vertical to the
-/// triangle that it meets. If it meets none, they are distances to the nearest point of the triangle that covers the
-/// sample on the map.
+/// triangle that this line meets. If there is none, they are distances to the nearest point of the triangle that covers
+/// the sample on the map.
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
@@ -98,9 +98,9 @@ struct Measurement {
   std::uint64_t open_edges = 0;          ///< edges with one triangle
   std::uint64_t border_loops = 0;        ///< closed loops that the open edges form
   std::uint64_t t_junctions = 0;         ///< vertices inside an open edge of another triangle
-  /// Open edges of an open mesh with surface of the domain on their outer side: the mesh has a hole there. Lattice
-  /// lines cut each edge into pieces. The test point lies next to the middle of each piece, 1/64 sample outside the
-  /// edge (4 coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
+  /// Open edges of an open mesh with a part of the domain on their outer side: the mesh has a hole there. Lattice lines
+  /// cut each edge into pieces. Each piece has a test point next to its middle, 1/64 sample outside the edge (4
+  /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
   /// omitted. A missing part of the domain that touches the rest only at corners has no such edge, and is not counted
   /// here.
   std::uint64_t gaps = 0;
@@ -142,8 +142,8 @@ Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const 
 /// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders are
 /// {index of the point, 0}; on_row is called once, with all points. Duplicates are first removed by the given policy.
 /// The unit of coverage_tolerance is the mean distance between points, √(area / points). Gaps are open edges within the
-/// convex hull (see MeasureOptions::inlets). MeasureOptions::tolerance has one for each point, which an error may
-/// exceed by the judge's own rounding, 1e-12 of the heights. Same failures and cost as measure().
+/// convex hull (see MeasureOptions::inlets). MeasureOptions::tolerance has one for each point; errors may exceed it by
+/// the judge's own rounding, 1e-12 of the heights. Same failures and cost as measure().
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 
@@ -165,20 +165,20 @@ struct Volumes {
 };
 
 /// The volumes between two surfaces, from the ground before to the ground after. Each triangle of one surface is
-/// clipped by those of the other, and the volume above such a part is an exact formula: neither surface is sampled.
+/// clipped by those of the other, and an exact formula gives the volume above each part: neither surface is sampled.
 /// Sums of doubles are compensated; the rounding is about 1e-15 of the largest |z| times the common area. A mesh
 /// against itself has volumes of exactly 0. Swapped meshes give the same bits, with cut and fill exchanged. Outside
 /// areas below 1e-12 of a surface count as 0. Run::threads and Run::progress are used; threads never change the result.
 ///
-/// Both meshes must be in one frame: x, y and z are compared as Mesh::vertex() returns them. Metadata are ignored, and
-/// so are bounds: if the heights of the surfaces are known to ±E₁ and ±E₂, each of cut, fill and net is known to
-/// ±(E₁ + E₂) · common_area. Meshes without common area have volumes of 0.
+/// Both meshes must be in one frame: x, y and z are compared as Mesh::vertex() returns them. Metadata and bounds are
+/// ignored: if the heights of the surfaces are known to ±E₁ and ±E₂, each of cut, fill and net is known to ±(E₁ + E₂) ·
+/// common_area. Meshes without common area have volumes of 0.
 ///
-/// Fails with kInput as measure(), and for a mesh with more than one height above a place: a closed solid, a triangle
-/// that stands upright or faces down (the message names it), triangles that overlap seen from above. Triangles without
-/// area in space are ignored. Cost: O(n log n + overlapping pairs of triangles). Memory: some 100 bytes a triangle.
+/// Fails with kInput as measure(), and for a mesh with more than one height at a place: a closed solid, a triangle that
+/// stands upright or faces down (the message names it), triangles that overlap seen from above. Triangles without area
+/// in space are ignored. Cost: O(n log n + overlapping pairs of triangles). Memory: some 100 bytes a triangle.
 Result<Volumes> measure_volume(const Mesh& from, const Mesh& to, const Run& run = {});
-/// The same from a surface to an endless level: cut is the ground above the level, fill the volume missing below it.
+/// The same from a surface to an unbounded level: cut is the ground above the level, fill the volume missing below it.
 /// Fails with kUsage for a level that is not finite. Cost: O(n).
 Result<Volumes> measure_volume(const Mesh& from, double level, const Run& run = {});
 

@@ -23,8 +23,8 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample. In frames in space "up" is
-/// away from the earth instead. Their x and y are float32 values unless the options request double. Meshes read from
+/// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample. Their x and y are float32
+/// values unless the options request double. In frames in space "up" is away from the earth instead. Meshes read from
 /// files keep the file's precision, so that measuring rounds nothing.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
@@ -79,8 +79,8 @@ struct Placement {
   std::array<double, 3> scale{1, 1, 1};
 };
 
-/// Places the mesh: origin becomes 0, positions are rounded to float32, metadata["placement"] holds the placement,
-/// which STL and every format with metadata store. Normals are removed.
+/// Places the mesh: the origin becomes 0, and positions are rounded to float32. metadata["placement"] contains the
+/// placement; STL and every format with metadata store it. Normals are removed.
 void place_mesh(Mesh& mesh, const Placement& placement);
 
 /// Maps the rounded positions back to the raster's frame, by metadata["placement"]. Returns false, without change, for
@@ -88,10 +88,10 @@ void place_mesh(Mesh& mesh, const Placement& placement);
 bool undo_placement(Mesh& mesh);
 
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
-/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all except the first move away
-/// from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the base is not
-/// below the lowest vertex (names its height), and with kPromise if rounding merges vertices, because the mesh is too
-/// fine for its size, so that the result is no closed 2-manifold. REQUIRES: as add_base(). Cost: O(n log n).
+/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all except the first are moved
+/// away from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the base is
+/// not below the lowest vertex (names its height), and with kPromise if the mesh is too fine for its size: rounding
+/// merges vertices, so that the result is not a closed 2-manifold. REQUIRES: as add_base(). Cost: O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
 /// Properties of a solid for readers that round positions to float32 and merge equal positions, as STL readers do.
@@ -126,20 +126,21 @@ struct Contour {
 };
 
 /// The contours at all multiples of `interval`, in the unit of heights, between the lowest and the highest vertex of a
-/// mesh with z up. The mesh follows the raster to within its max error, so a contour lies where the raster is in
+/// mesh with z up. The mesh follows the raster to within its max error, so a contour lies where the raster is within
 /// `height` ± max error.
 ///
 /// A point on the edge from a, the lower end, to b is a + (b − a) · (height − z of a) / (z of b − z of a) in double. It
 /// is the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
-/// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower, a hollow
-/// none, a ridge one line around it. A single vertex or edge at the height with lower ground around it is omitted. No
-/// line branches, and lines touch only at vertices. Each is closed, or ends on the border of the mesh or at an edge
-/// without exactly two triangles in opposite directions.
+/// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower. A hollow
+/// at the height has no line, and a ridge has one line around it. A single vertex or edge at the height with lower
+/// ground around it is omitted. No line branches, and lines touch only at vertices. Each line is closed, or ends on the
+/// border of the mesh or at an edge without exactly two triangles in opposite directions.
 ///
-/// Lines are ordered by height, then by the first triangle that they cross. An open line begins where the ground rises
-/// on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval is not above 0 and
-/// finite, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range, finite positions, fewer
-/// than 2^32 / 3 triangles. Cost: O(n log n + length of the lines). Memory: 20 bytes a triangle and 16 a segment.
+/// Lines are ordered by height, then by the first triangle that they cross. An open line begins at the end from which
+/// the ground rises on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval
+/// is not above 0 and finite, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range,
+/// finite positions, fewer than 2^32 / 3 triangles. Cost: O(n log n + length of the lines). Memory: 20 bytes a triangle
+/// and 16 a segment.
 Result<std::vector<Contour>> find_contours(const Mesh& mesh, double interval);
 
 }  // namespace scarp

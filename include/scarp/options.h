@@ -42,14 +42,14 @@ enum class Norm {
   kMax,      ///< L∞
 };
 
-/// At least one goal; the first one reached ends the run.
+/// At least one goal is required; the first one reached ends the run.
 struct Goals {
   /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces
   /// every sample. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
-  /// least 95 % of the budget. (The max error is not monotone in the number of points.) With more than fast effort it
-  /// is the mesh found by the search for an error (see "Budgets" at simplify()). DEFAULT: none.
+  /// least 95 % of the budget. (The max error is not monotone in the number of points.) With more than fast effort, the
+  /// result is that of the search for an error (see "Budgets" at simplify()). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
   /// kRms fails with kUsage without a budget. DEFAULT: kMax.
@@ -67,7 +67,7 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 /// 1995; Shewchuk 2002; off-centres, Üngör 2004) adds vertices until the goals are met; the error bound holds
 /// throughout.
 ///
-/// Where goals conflict, the later one yields, and ShapeReport counts the violations: (1) the error bound;
+/// Where goals conflict, the later one in this list yields, and ShapeReport counts the violations: (1) the error bound;
 /// (2) the position of lines, cutlines and outlines; (3) max_edge and grade, which always hold; (4) min_angle; (5)
 /// min_edge; (6) few triangles. A triangle with a smallest angle of a and a shortest edge of s is at least s·sin(a)
 /// high. The time step of a flow solver follows this height; a long edge at a small angle does not increase it.
@@ -77,7 +77,7 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 /// 1/32 of a sample (or a quarter of max_edge, if less) from all others, so refinement always ends. Outlines are split
 /// exactly; lines and cuts are split within a 256th of a sample, at their own heights. Efforts above fast then remove
 /// and move vertices that angles, lengths and the bound do not need. High effort also makes the mesh of normal effort,
-/// and max that of high. The result is the one with fewer triangles, unless the time is up.
+/// and max effort that of high. The result is the mesh with fewer triangles, unless the time is up.
 ///
 /// Guarantees, up to the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3)
 /// each triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners
@@ -87,7 +87,7 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 struct ShapeGoals {
   /// Degrees, 0 … 33. DEFAULT: 0, any.
   double min_angle = 0;
-  /// In the units of the mesh's x and y; at least an eighth of a sample. DEFAULT: none.
+  /// Longest edge, in the units of the mesh's x and y; at least an eighth of a sample. DEFAULT: none.
   std::optional<double> max_edge = std::nullopt;
   /// Growth rate of edge lengths, above 0. No edge is longer than 2·(s + grade·d) for any vertex: s is the length of
   /// the shortest edge at the vertex, d the distance along edges from it to the far end of the long edge. s counts as
@@ -154,13 +154,13 @@ struct Quality {
   /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
   /// Lower bound for the shape of triangles (height over longest edge), 0 … 0.5, 0 for none. No removal, move or flip
-  /// makes a triangle below it, unless it removes an equally bad one. Triangles of refinement, and those forced by the
-  /// outline of nodata, may lie below. The default yields: kNormal's removals ignore it, and if more than 15 % of the
-  /// triangles then lie below, it has no effect. DEFAULT: 0.1 where vertices are free, else 0.
+  /// makes a triangle below this bound, unless it removes an equally bad one. Triangles of refinement, and those forced
+  /// by the outline of nodata, may lie below it. The default is weaker: kNormal's removals ignore it, and if more than
+  /// 15 % of the triangles then lie below it, it has no effect. DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
   /// Goals for angles, edge lengths and their growth, for simulations: vertices are added until the goals hold, then
-  /// removed while they hold (with a grade in reverse order). With a budget, an error is searched for, as with lines.
-  /// simplify() fails with kUsage without a max error or a budget, for goals out of range, and for a budget too small
+  /// removed while they hold (with a grade in reverse order). With a budget, simplify() searches for an error, as with
+  /// lines. It fails with kUsage without a max error or a budget, for goals out of range, and for a budget too small
   /// for them. DEFAULT: none.
   ShapeGoals shape = {};
   /// kAuto is kDominant towards an error if that order has no conflicts (list_conflicts()) and samples in memory have
@@ -197,7 +197,8 @@ struct BeyondEdges {
 ///
 /// Breaklines may end on an edge only at vertices of the line (set `vertices` for others).
 ///
-/// One thread refines such a mesh. It needs the samples in memory and two copies of them, 8 bytes a sample; see Order.
+/// One thread refines a mesh with a locked border. This needs the samples in memory and two copies of them, 8 bytes a
+/// sample; see Order.
 struct Border {
   bool is_locked = false;  ///< DEFAULT: false, edges are simplified with the surface.
   /// Max error of the line, at most that of the goals. DEFAULT: that of the goals, or of the samples' tolerances or
@@ -295,8 +296,8 @@ struct EdgeRule {
   /// Finer lattice for triangles with few samples: errors for the *score* are then measured against the bilinear
   /// interpolant, ⌈(width + height) / (2 · area · supersample)⌉ times finer. 0: off. Scape calls 0.8 moderate.
   double supersample = 0;
-  /// After the last insertion, flip edges while that lowers the sum of squared errors and raises no largest error. Not
-  /// for kNormals. False: no such flips, as in the paper's program.
+  /// After the last insertion, flip edges while that lowers the sum of squared errors without raising the largest
+  /// error. Not for kNormals. False: no such flips, as in the paper's program.
   bool settle = true;
 
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
@@ -309,7 +310,7 @@ struct Strategy {
   Batch batch = {};     ///< DEFAULT: one at a time
   EdgeRule edges = {};  ///< DEFAULT: Delaunay
   /// False: if a budget ends the run, the result is the last mesh, as in Scape, though an earlier one may have been
-  /// better. Always so if importance is not an error: one pass, products. DEFAULT: true.
+  /// better. This always applies if importance is not an error: one pass, products. DEFAULT: true.
   bool best_of_budget = true;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
@@ -318,8 +319,8 @@ struct Strategy {
 /// The part of the raster that the mesh covers.
 struct Domain {
   /// Tolerance, in samples, for simplifying the outline of the valid data, at least 0. The outline only moves outwards,
-  /// over nodata: no valid sample is cut off. Voids that hold no sample are closed if they reach nowhere farther from
-  /// their outline. DEFAULT: 0, the exact outline.
+  /// over nodata: no valid sample is cut off. Voids without a sample are closed if no point in them is farther than
+  /// that from their outline. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
   /// The edge of the raster. DEFAULT: simplified with the surface.
   Border border = {};
@@ -333,8 +334,8 @@ struct Output {
   /// Rounds positions so that encode_glb() compresses them without moving them, if rows run along x (else this changes
   /// nothing). x and y are double regardless of float32_positions. Heights are rounded to multiples of a power of two,
   /// at most 1/128 of max_error and of a locked border's max error. The engine aims 1/256 below max_error to allow for
-  /// that, unless the samples are such multiples. Heights are not rounded without a max_error, or where tolerances,
-  /// weights or channels bound errors. DEFAULT: false.
+  /// this rounding, unless the samples are such multiples. Heights are not rounded without a max_error, or where
+  /// tolerances, weights or channels bound errors. DEFAULT: false.
   bool lattice = false;
   bool normals = false;  ///< fill Mesh::normals from the full-resolution samples. DEFAULT: false.
   bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.

@@ -23,8 +23,8 @@
 
 namespace scarp {
 
-/// The goals, and the strategy to reach them. Strategies only insert vertices, in the greedy order; for efforts above
-/// fast, lines and shapes use simplify().
+/// The goals, and the strategy to reach them. Strategies only insert vertices, in the greedy order. Use simplify() for
+/// efforts above fast, lines and shapes.
 struct PaperOptions {
   Goals goals = {};
   Tolerances tolerances = {};
@@ -41,8 +41,8 @@ struct PaperOptions {
 ///
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
 /// out of range: no importance, one pass with batches or without a feature of the raster, a batch fraction not in (0,
-/// 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order; Algorithms I and II
-/// as listed at Algorithm; about ten times as long with data-dependent edges.
+/// 1], a shape threshold above 1, supersampling below 0. Cost: that of simplify() in the greedy order; Algorithms I and
+/// II as listed at Algorithm; about ten times as long with data-dependent edges.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
 
 }  // namespace scarp

@@ -73,11 +73,11 @@ class ErrorMap {
 };
 
 /// Draws the mesh with one pixel for each sample, Gouraud-shaded: its colours interpolated in each triangle, or its
-/// hillshade without colours. White outside the mesh. REQUIRES: the mesh lies in the field's frame, which is no frame
-/// in space.
+/// hillshade without colours. White outside the mesh. REQUIRES: the mesh lies in the field's frame, which is not in
+/// space.
 Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
 
-/// Channels as a picture: three as red, green, blue, else the first as grey. 8-bit values do not change, others are
+/// Channels as a picture: three as red, green, blue, else the first as grey. 8-bit values do not change, and others are
 /// stretched over their range.
 Picture draw_channels(const OwnedChannels& channels);
 
@@ -90,7 +90,7 @@ double find_psnr(const Picture& a, const Picture& b);
 /// Pictures side by side, aligned at the top, with white gaps of `gap` pixels.
 Picture place_side_by_side(std::span<const Picture> pictures, int gap = 8);
 
-/// The edges of the mesh seen from above, to scale, north up, each once. Text; deterministic.
+/// The edges of the mesh seen from above, to scale, north up, each drawn once. Text; deterministic.
 std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
 std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 

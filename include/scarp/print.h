@@ -24,7 +24,7 @@ namespace scarp {
 /// The shape of the print. z units are those of the field. Print units are millimetres if there is a size, else those
 /// of the field's frame.
 struct PrintOptions {
-  /// Height of the underside, in z units, below the lowest vertex. Not together with a thickness. DEFAULT: 2 % of the
+  /// Height of the underside, in z units, below the lowest vertex. Not allowed with a thickness. DEFAULT: 2 % of the
   /// longest side below the lowest vertex.
   std::optional<double> base = std::nullopt;
   /// Distance from the underside to the lowest vertex, above 0: in z units, or in print units. At most one of the two.
@@ -70,8 +70,8 @@ struct PrintedTerrain {
   Print print;
 };
 
-/// Print units for one z unit, estimated without a mesh from the samples with heights. Reads a field that is not in
-/// memory once. Fails if a read fails, and with kInput if no sample has a height.
+/// Estimates the number of print units for one z unit, without a mesh, from the samples with heights. Reads a field
+/// once if it is not in memory. Fails if a read fails, and with kInput if no sample has a height.
 Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print);
 
 /// Simplifies a field for a print. Rounding moves the placed positions, so the mesh is made with 1/1024 of the max
@@ -79,15 +79,15 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 /// holds for the print tiles as written. Cuts between tiles are edges of the mesh. If a budget ends the run, its mesh
 /// is the result, regardless of the error of the print.
 ///
-/// `options`: as for simplify(). float32_positions is ignored; cuts are added to its breaklines. `field` receives the
-/// heights of hard lines, as by apply_edits(); Simplified::edits lists them. The arguments are not needed after the
-/// call.
+/// `options`: as for simplify(). float32_positions is ignored; cuts are added to its breaklines. The heights of hard
+/// lines are written to `field`, as by apply_edits(); Simplified::edits lists them. The arguments are not needed after
+/// the call.
 ///
 /// Fails with kUsage for options in conflict or out of range (the sentence begins with the option's name, such as
-/// "base=300 is not …", or with "print tiles: " if the print cannot be cut so), for several tiles in a non-affine
-/// frame, and for a frame in space. Fails with kPromise if samples outside of gaps have no top above them, and if
-/// float32 cannot hold the error. Fails as simplify(), build_solid() and measure() do. Cost: usually one or two runs of
-/// simplify(), at most four, each with a measure() of the print.
+/// "base=300 is not …", or with "print tiles: " if the print cannot be cut in this way), for several tiles in a
+/// non-affine frame, and for a frame in space. Fails with kPromise if samples outside of gaps have no top above them,
+/// and if float32 cannot hold the error. Fails as simplify(), build_solid() and measure() do. Cost: usually one or two
+/// runs of simplify(), at most four, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

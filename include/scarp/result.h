@@ -67,8 +67,8 @@ ForwardedError<E> forward_error(E&& error) {
 /// `SCARP_TRY(const auto& mesh, read_mesh(path));` names the value of a Result, or returns its Error from the enclosing
 /// function or lambda, which returns a Result of any type. The Result lives until the end of the block; declare `auto&&
 /// mesh` to change or move the value. The value is moved to a target without `&`, as in `SCARP_TRY(job.mesh,
-/// read_mesh(path));`, or copied if the expression names a Result. The macro is several statements: in a branch it
-/// needs braces.
+/// read_mesh(path));`, or copied if the expression names a Result. The macro expands to several statements: in a branch
+/// it needs braces.
 #define SCARP_TRY(target, ...) SCARP_TRY_AS(SCARP_TRY_NAME(__COUNTER__), target, __VA_ARGS__)
 
 /// `SCARP_RETURN_IF_ERROR(write_mesh(path, mesh));` returns the Error of a Result whose value is not needed.

@@ -36,12 +36,12 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// Bytes of memory.
 struct Memory {
   /// Memory limit of the whole process; 0: no limit. Strips, threads and the blocks of the file are chosen to fit. A
-  /// run that cannot fit fails before the work begins, or as soon as the mesh outgrows the limit. The memory of a call
+  /// run that does not fit fails before the work begins, or as soon as the mesh exceeds the limit. The memory of a call
   /// is estimated, not counted. DEFAULT: 0.
   std::uint64_t limit = 0;
   /// The part of the limit already in use: by the program, by samples or the cache of their file. DEFAULT: 0.
   std::uint64_t taken = 0;
-  /// Bytes for each vertex that the caller will need, in addition to the mesh, to write it. Used by simplify() only.
+  /// Bytes per vertex that the caller will need to write the mesh, in addition to the mesh. Used by simplify() only.
   /// DEFAULT: 80, more than GLB needs.
   std::uint64_t per_vertex = 80;
 };
@@ -51,12 +51,12 @@ struct Run {
   int threads = 0;  ///< 0: all cores, or one for work too short to share. Never changes the result. DEFAULT: 0.
   Memory memory = {};
   ProgressCallback progress = {};
-  /// Polled by simplify() with more than fast effort, often, from any thread; must stay true once true. Then removal
-  /// ends, and the result is the mesh so far, which keeps the bound but depends on the time. A search for a budget ends
-  /// with the best mesh so far. DEFAULT: never.
+  /// Polled often by simplify() with more than fast effort, from any thread; must stay true once true. Removal then
+  /// ends, and the result is the mesh so far, which satisfies the bound but depends on the time. A search for a budget
+  /// ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
   /// Polled in the same way, for a caller that stops waiting. It is a request to end, not a deadline: max effort does
-  /// not use up the time. Not polled with a budget. DEFAULT: never.
+  /// not wait for it. Not polled with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };
 

@@ -29,7 +29,7 @@
 
 namespace scarp {
 
-/// A pass of simplify() and what it cost.
+/// A pass of simplify() and its cost.
 struct Pass {
   std::string_view name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "shape";
                           ///< "freeze", "order", "prove"
@@ -39,7 +39,7 @@ struct Pass {
 
 /// Reason why Effort::kAuto became Effort::kFast.
 enum class WhyFast {
-  kNone,      ///< it is not
+  kNone,      ///< it did not
   kOrder,     ///< Order::kGreedy was requested: the paper's algorithm, which only inserts
   kStrategy,  ///< simplify_by_paper()
   kMemory,    ///< removal needs more than the memory limit allows
@@ -50,7 +50,7 @@ struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
   /// The proof: the result of measure() for `mesh` against all samples. Topology is not measured in affine frames whose
-  /// offsets are exact (offsets_are_exact()) or double, where it holds by construction.
+  /// offsets are exact (offsets_are_exact()) or double, where it is correct by construction.
   Measurement measurement;
   std::uint64_t ignored = 0;      ///< valid samples without a bound: ignored, weight 0, infinite tolerance
   double weighted_max_error = 0;  ///< largest weight · |error| (with a mask), |error| / tolerance (with tolerances)
@@ -93,8 +93,7 @@ struct Simplified {
   double seconds_measure = 0;        ///< the proof
 };
 
-/// Insertion of the worst samples (Garland & Heckbert 1995) into a constrained Delaunay triangulation of the valid
-/// data.
+/// Inserts the worst samples (Garland & Heckbert 1995) into a constrained Delaunay triangulation of the valid data.
 ///
 /// Order: towards an error goal the locally dominant order refines tile by tile, on all threads. Where two tiles meet,
 /// an edge that is not Delaunay is kept if the bound needs it. Budgets and simplify_by_paper() use the greedy order
@@ -102,12 +101,12 @@ struct Simplified {
 ///
 /// Effort: after refinement, kNormal removes each vertex that the bound does not need. It considers all triangulations
 /// of the ring around the vertex and uses the one with the least squared error. The cheapest vertices are removed
-/// first. Once in between, vertices move to better samples. The remaining vertices are samples with their own heights,
-/// and no single one can be removed. kHigh also tries removals that break the bound: it repairs them by flipping edges
-/// and moving vertices nearby, or undoes them. Free vertices satisfy max_error at their lattice positions. Where
-/// float32 cannot hold these exactly, the engine aims 0.2 % below max_error. If rounding still breaks the bound, the
-/// run is repeated with vertices on samples, unless kFree was requested. With channels, vertices remain on samples,
-/// with their values, and every effort bounds the norm.
+/// first. Once during removal, vertices move to better samples. The remaining vertices are samples with their own
+/// heights, and no single one can be removed. kHigh also tries removals that break the bound. It repairs the bound by
+/// flipping edges and moving vertices nearby, or undoes the removal. Free vertices satisfy max_error at their lattice
+/// positions. Where float32 cannot hold these exactly, the engine aims 0.2 % below max_error. If rounding still breaks
+/// the bound, the run is repeated with vertices on samples, unless kFree was requested. With channels, vertices remain
+/// on samples, with their values, and every effort bounds the norm.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
@@ -120,26 +119,28 @@ struct Simplified {
 ///
 /// With channels, max_error bounds the norm of HeightField::channels (so the heights too where height_scale is at least
 /// 1) at every effort, and objectives refer to the norm. With a mask it bounds the weighted error. Every tolerance is
-/// kept. In frames with inexact offsets these bounds are proven to a float32's rounding (2⁻²², plus 2⁻²⁴ a channel).
-/// `ignored` samples have no bound.
+/// satisfied. In frames with inexact offsets these bounds are proven up to float32 rounding (2⁻²², plus 2⁻²⁴ a
+/// channel). `ignored` samples have no bound.
 ///
 /// Budgets are upper bounds. With more than fast effort, a search finds the max error whose mesh uses 99 % of the
-/// budget (97 % where that would be slow). It mostly needs two or three runs of that effort after a greedy one. It uses
-/// less where the triangle count jumps because many samples share an error. The objective is never larger than in the
-/// greedy mesh for the same budget. A max_error that fits the budget ends the run, as does an error of 0 (kExact). Fast
-/// effort also searches with lines or shapes, in the dominant order, and where the field has a source.
+/// budget (97 % where that would be slow). The search mostly needs two or three runs of that effort after a greedy one.
+/// The mesh uses less where the triangle count jumps because many samples share an error. The objective is never larger
+/// than in the greedy mesh for the same budget. A max_error that fits the budget ends the run, as does an error of 0
+/// (kExact). Fast effort also uses this search with lines or shapes, in the dominant order, and if the field has a
+/// source.
 ///
-/// Objective::kRms does not search. A refined mesh of four times the triangles is reduced to the budget by removing the
-/// vertices that raise the squared error least. Then vertices are moved, removed and inserted while the squared error
+/// Objective::kRms does not search. It refines a mesh of four times the triangles, then removes the vertices that raise
+/// the squared error least, down to the budget. Then vertices are moved, removed and inserted while the squared error
 /// falls (Lindstrom and Turk's aim, with vertical errors). No sample exceeds the cap: max_error if it fits the budget,
-/// else the max error of fast effort for the budget. The whole budget is used, even where less would keep max_error.
-/// With a source, shape goals or a locked border, the search above runs instead and returns the mesh of least RMSE.
+/// else the max error that fast effort reaches for the budget. The whole budget is used, even if less would satisfy
+/// max_error. With a source, shape goals or a locked border, the search above runs instead and returns the mesh of
+/// least RMSE.
 ///
 /// Tolerances with a budget: if they fit the budget, together with max_error if given, they end the run
 /// (StopReason::kMaxError). Otherwise the search scales all tolerances and max_error by one factor above 1; a tolerance
 /// of 0 stays 0. It minimises the largest |error| / tolerance, or with Objective::kRms its RMS over all samples with a
-/// tolerance. |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample. With a mask, the error
-/// searched for is divided by the weight of each sample. Ignored samples do not count.
+/// tolerance. |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample. With a mask, the search
+/// divides its error by the weight of each sample. Ignored samples do not count.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some 20 MB. In the dominant
 /// order: 4.6 bytes a sample, 72 a vertex until the mesh is frozen (120 for ordering and the proof), and a tile's
@@ -149,15 +150,15 @@ struct Simplified {
 /// about 300 a vertex. Up to 32 MiB of work buffers stay in the process for later calls on any thread, so a second call
 /// on a small raster allocates almost nothing.
 ///
-/// A locked border (Border) does not depend on the rest of the mesh. Every effort keeps it, and max_error holds at its
-/// samples too. It must fit the budget, and needs max_error or tolerances, and 4 more bytes a sample.
+/// A locked border (Border) does not depend on the rest of the mesh. Every effort preserves it, and max_error holds at
+/// its samples too. It must fit the budget, and needs max_error or tolerances, and 4 more bytes a sample.
 ///
 /// Strategies (simplify_by_paper()) change which samples become vertices, never the guarantees.
 ///
 /// Fails with kUsage (no goal, an ignored sample or a point outside the raster, conflicting settings
 /// (list_conflicts()), a mask, tolerance or channel out of range, a goal out of range, a budget too small for the
 /// outline), kMemory (a memory limit that is too small), kInput (fewer than 2×2 samples, no valid cell), kPromise (a
-/// bound that float32 positions or samples cannot keep, a mesh that rounding or a projection folds), kCancelled.
+/// bound that float32 positions or samples cannot satisfy, a mesh folded by rounding or a projection), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 /// The same with goals only: `simplify(field, {.max_error = 1.5})`.
 Result<Simplified> simplify(const HeightField& field, const Goals& goals);
@@ -172,7 +173,7 @@ class Refiner {
   Refiner& operator=(Refiner&&) noexcept;
   ~Refiner();
 
-  /// Inserts the sample with the largest error (ties: lowest row, then lowest column). Returns false, without change,
+  /// Inserts the sample with the largest error (ties: lowest row, then lowest column). Returns false, without a change,
   /// once every sample is reproduced exactly. Cost: expected O(log vertices + samples rescanned).
   bool insert_worst();
   /// Largest error of the current mesh over all samples; 0 if it is exact.
@@ -211,18 +212,18 @@ Result<std::vector<Simplified>> simplify_levels(const HeightField& field, const 
 /// A max error for a share of the triangles.
 struct Suggestion {
   double share = 0;             ///< share of the full grid's triangles, above 0, at most 1
-  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share, and may use
-                                ///< far less. Three significant digits. None: the outline alone needs more.
+  std::optional<double> error;  ///< max error in z units, of three significant digits: a default run with it stays
+                                ///< within the share, and may use far less. None: the outline alone needs more.
 };
 
 struct Suggestions {
   std::vector<Suggestion> rows;    ///< one for each share, in their order
-  bool is_estimate = false;        ///< made from windows of the raster, not from all of it
+  bool is_estimate = false;        ///< made from windows of the raster instead of all of it
   std::uint64_t samples_used = 0;  ///< samples of these windows, or of the raster
 };
 
-/// Suggests a max error for each share. The engine first runs greedily on the field until the last share is used up. It
-/// then runs in the default order with the errors found, on all threads, and again with larger errors where a run
+/// Suggests a max error for each share. The engine first runs greedily on the field until it reaches the last share. It
+/// then runs in the default order with the errors found, on all threads, and repeats a run with a larger error if it
 /// exceeds its share. For fields of more than 2 million samples it uses up to 16 evenly spaced windows of 256 × 256
 /// samples, refined as one: the window with the largest error gets the next vertex. Windows have more border for their
 /// area than the raster, so the estimate is a little too large. The result depends on the samples and the shares only.

@@ -79,11 +79,11 @@ enum class GridKind {
 /// The raster of a local grid.
 struct LocalRaster {
   std::int32_t cols = 0, rows = 0;  ///< samples, at least 2 each
-  double cell_x = 1, cell_y = 1;    ///< metres, or other units; of 29 bits, so that positions are exact
+  double cell_x = 1, cell_y = 1;    ///< metres, or other units; rounded to 29 bits, so that positions are exact
   std::int64_t side = 0;            ///< cells along the square: those of a tile of the finest level, times a power of
                                     ///< two
 
-  /// The sample next to the middle from which positions count. Above 32768 samples, positions of all levels are whole
+  /// The sample next to the middle; positions count from it. Above 32768 samples, positions of all levels are whole
   /// steps from it.
   std::int64_t centre_col() const { return centre_of(cols); }
   std::int64_t centre_row() const { return centre_of(rows); }  ///< from the southern row
@@ -135,15 +135,15 @@ struct TileGrid {
   /// Length of a tile's side in the units of its vertices' u and v. On local grids, nodes lie at whole units.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
 
-  /// Full turns, in degrees, to add to a tile's bounds for all its copies that a source may cover; the last column of
-  /// tiles is next to the first.
+  /// Full turns, in degrees. Added to a tile's bounds, they give all its copies that a source may cover; the last
+  /// column of tiles is next to the first.
   std::span<const double> turns() const;
   /// True if the first and the last row of nodes are each a pole: a single point.
   bool has_poles() const { return kind == GridKind::kGeographic; }
   /// True if rows of nodes are evenly spaced in degrees.
   bool has_even_rows() const { return kind != GridKind::kMercator; }
   /// Nodes that may have heights: on a local grid those of the raster, and the next ones beyond an edge without nodes;
-  /// on other grids all, also beyond a turn.
+  /// on other grids all, also those beyond a full turn.
   NodeRange land_columns(std::int64_t per_turn) const;
   NodeRange land_rows(std::int64_t per_turn) const;
 
@@ -202,13 +202,13 @@ class HeightZero {
  public:
   virtual ~HeightZero() = default;
   /// Finds the surface's heights in metres above the ellipsoid at positions in degrees; NaN where unknown. Each height
-  /// depends on its position alone. Several threads may call it at once. The spans have equal sizes.
+  /// depends only on its position. Several threads may call it at once. The spans have equal sizes.
   virtual void find(std::span<const double> longitudes, std::span<const double> latitudes,
                     std::span<double> heights) const = 0;
 };
 
 /// The geoid EGM96 above the ellipsoid of WGS 84, built in: a grid of 15 minutes of arc, in whole centimetres, with
-/// bilinear interpolation. Everywhere within 6 mm of PROJ's result for the same grid (egm96_15.gtx). The same bits on
+/// bilinear interpolation. Within 6 mm of PROJ's result for the same grid (egm96_15.gtx) everywhere. The same bits on
 /// every machine. Cost: 20 ms and 4 MB at the first call.
 std::shared_ptr<const HeightZero> egm96();
 
@@ -219,9 +219,9 @@ struct ZeroGrid {
   RasterPlace place;           ///< position of the grid's nodes
 };
 
-/// Interpolates bilinearly between the four nodes around a position; up to half a cell outside, the outer nodes count.
-/// Unknown where one of the four nodes is unknown. A grid in degrees around the whole globe continues after its last
-/// column. Fails with kUsage for a wrong number of heights, and as make_node_source().
+/// Interpolates bilinearly between the four nodes around a position; up to half a cell outside, the outer nodes are
+/// used. Unknown where one of the four nodes is unknown. A grid in degrees around the whole globe continues after its
+/// last column. Fails with kUsage for a wrong number of heights, and as make_node_source().
 Result<std::shared_ptr<const HeightZero>> make_grid_zero(ZeroGrid grid);
 
 // Heights by position, from which tiles are made.
@@ -239,7 +239,7 @@ class NodeSource {
  public:
   virtual ~NodeSource() = default;
   /// Writes cols × rows heights in metres to `out`, the northern row first; NaN is nodata. A node's height is a
-  /// function of its position alone. Several threads may call it at once. Fails as the samples' source does.
+  /// function of its position only. Several threads may call it at once. Fails as the samples' source does.
   virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
   /// A part of the window outside of which no node has a height; empty if none has. DEFAULT: the whole window.
   virtual NodeWindow land(const NodeWindow& window) const { return window; }
@@ -259,7 +259,8 @@ class NodeSource {
 Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
 
 /// The samples of the raster of a local grid, with north up, as nodes of the finest level, or every second, fourth …
-/// one. Beyond the raster its outermost samples are repeated for tiles that read them. Borrows the field's samples.
+/// sample. Beyond the raster, its outermost samples are repeated for tiles that read there. Borrows the field's
+/// samples.
 std::unique_ptr<NodeSource> make_local_nodes(const HeightField& field);
 
 /// The nodes of `source`, raised by the height of `zero`, which is exact at positions at most 1/32° apart and
@@ -271,8 +272,8 @@ struct StackedSource {
   const NodeSource* nodes = nullptr;  ///< borrowed
   DegreeBox covered = {};             ///< no heights elsewhere
 };
-/// Several sources as one: a node has the height of the first source with a height there. Only a single source passes
-/// its samples. Cost: each source reads a rectangle around the nodes still without a height.
+/// Several sources as one: a node has the height of the first source with a height there. Samples are passed only for a
+/// single source. Cost: each source reads a rectangle around the nodes still without a height.
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// The rectangle in degrees that the raster covers, with half a cell around the outer samples. Fails with kInput if its
@@ -377,11 +378,11 @@ struct TerrainTile {
   double quantum = 1;
   double max_error = 0;  ///< max error required of its interior, in metres: the level's, or more because of
                          ///< max_tile_bytes
-  /// Number of line segments that are no edges: rounded to 32767ths of the tile, they would flip triangles.
+  /// Number of line segments that are not edges: rounded to 32767ths of the tile, they would flip triangles.
   std::uint64_t lines_left_out = 0;
 
-  /// Largest |mesh − node| in metres over all nodes of the tile, with heights as decoded, and edges straight on the
-  /// map. Above the plan's block level an upper bound.
+  /// Largest |mesh − node| in metres over all nodes of the tile, with decoded heights and edges that are straight on
+  /// the map. Above the plan's block level, this is an upper bound.
   double node_error = 0;
   /// Max depth of flat triangles below the ellipsoid's curve, in metres; adds to node_error in space.
   double sag = 0;
@@ -389,7 +390,7 @@ struct TerrainTile {
   double bound() const { return node_error + sag; }
 
   /// Like node_error, the largest |mesh − sample| over the source's samples in the tile, each at its own position;
-  /// above the plan's block level an upper bound. Samples next to a node without a height, where the mesh falls to the
+  /// above the plan's block level, an upper bound. Samples next to a node without a height, where the mesh falls to the
   /// background, do not count. NaN if unknown: the source has no samples, or they were not examined.
   double source_error = std::numeric_limits<double>::quiet_NaN();
 };
@@ -418,7 +419,7 @@ struct LevelSummary {
   double node_error = 0, bound = 0;  ///< the largest among its tiles
   double source_error = 0;           ///< the largest among its tiles; NaN if any of them is
   /// Tiles whose node_error (or source_error if the plan binds samples) exceeds their max error. Causes: rounded
-  /// positions cannot follow a cliff, nodes cannot follow a sample, or, above the block level, reduced nodes allow no
+  /// positions cannot follow a cliff, nodes cannot follow a sample, or, above the block level, reduced nodes prevent a
   /// smaller proven error.
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;         ///< tiles whose max error exceeds the level's because of plan.max_tile_bytes
@@ -505,8 +506,8 @@ int finest_level(const PyramidPlan& plan, TileId id);
 /// The tile as stored in a set, within plan.max_tile_bytes if possible: a function of (id, plan, nodes, encoder).
 ///
 /// At plan.block_level and below, its node_error is at most its max error, except next to a cliff that positions in
-/// 32767ths of the tile cannot follow. If the plan binds samples, so is its source_error, except at samples too far
-/// from the surface between the nodes around them.
+/// 32767ths of the tile cannot follow. If the plan binds samples, the same holds for its source_error, except at
+/// samples too far from the surface between the nodes around them.
 ///
 /// Above plan.block_level only the nodes that its mesh needs are read: the mesh is that of finish_pyramid(), without
 /// the proof. node_error is NaN, since the nodes in between were not examined. Cost: some 70,000 nodes, read one by one
@@ -514,7 +515,7 @@ int finest_level(const PyramidPlan& plan, TileId id);
 ///
 /// REQUIRES: 0 <= id.z <= plan.max_zoom(). Fails as the source and the encoder do.
 Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source, const TileEncoder& encode);
-/// The same without a limit on its bytes.
+/// The same without a limit on the tile's bytes.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// Lists the tiles of make_pyramid() without making them: by level, rows and columns, y · 2^32 + x, sorted. Reads each
@@ -550,9 +551,9 @@ Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const No
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run = {});
 
-/// Makes all tiles of a pyramid: those with heights and, on levels up to plan.block_level, those that clients need to
-/// reach them: all roots, and the siblings of each tile. Equivalent to make_block() for each of find_blocks() in order,
-/// then finish_pyramid().
+/// Makes all tiles of a pyramid: those with heights and, on levels up to plan.block_level, the tiles that clients need
+/// to reach these (all roots, and the siblings of each tile). Equivalent to make_block() for each of find_blocks() in
+/// order, then finish_pyramid().
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
 

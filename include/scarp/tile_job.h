@@ -5,7 +5,7 @@
 //   finish   finish_parts(): makes the levels above the blocks, and the set
 //
 // Processes exchange only the plan and the parts. A block in a part is never remade, so an interrupted run resumes
-// where it was. The set is that of make_pyramid(), byte for byte, regardless of which process made its blocks.
+// where it stopped. The set is that of make_pyramid(), byte for byte, regardless of which process made its blocks.
 //
 // After the sources have changed, a new plan with the settings of the earlier one reuses its parts: blocks with
 // unchanged nodes are kept.
@@ -126,7 +126,8 @@ std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& wr
 struct TileJob;
 
 /// Rasters in order of priority, open as one source of nodes on the globe: a node has the height of the first raster
-/// with a height there. Each raster has its own CRS, cells, nodata value and datum. Or one raster on a plane.
+/// with a height there. Each raster has its own CRS, cells, nodata value and datum. Alternatively, one raster on a
+/// plane.
 class GlobeRaster {
  public:
   /// `mosaics`: at least one; the rasters of each lie on one grid, see find_mosaics(). Reads them, or streams them from
@@ -134,8 +135,8 @@ class GlobeRaster {
   /// Fails as open_height_field() and place_on_globe() do; with kUsage for options.view with several mosaics, and for a
   /// datum that contradicts a raster's CRS; with kInput for several planets.
   ///
-  /// `grid`: nothing selects the grid that suits the first raster, grid_for(). A local grid needs exactly one mosaic
-  /// (else kUsage), which place_on_plane() positions.
+  /// `grid`: std::nullopt selects the grid that suits the first raster, grid_for(). A local grid needs exactly one
+  /// mosaic (else kUsage), which place_on_plane() positions.
   static Result<std::unique_ptr<GlobeRaster>> open(const std::vector<std::vector<std::string>>& mosaics,
                                                    const ReadOptions& options, const Datum& datum,
                                                    std::optional<GridKind> grid = GridKind::kGeographic);
@@ -170,12 +171,12 @@ class GlobeRaster {
 struct FileStamp {
   std::string path;  ///< absolute, if it names a file
   std::uint64_t size = 0;
-  std::int64_t changed = 0;   ///< nanoseconds since 1970; both 0 if it is no file, such as a URL
+  std::int64_t changed = 0;   ///< nanoseconds since 1970; both 0 if it is not a file, such as a URL
   std::uint64_t content = 0;  ///< a hash of its bytes; 0: not read
 
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// The stamp of an existing file; else the path alone.
+/// The stamp of an existing file; else only the path.
 FileStamp stamp_of(const std::string& path);
 
 /// The estimated cost of making a set, from a sample of tiles.
@@ -250,14 +251,14 @@ std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
 std::uint64_t key_of(const TileJob& job);
 /// A hash of all settings for making tiles from nodes. Parts with another hash are not reused.
 std::uint64_t settings_key_of(const TileJob& job);
-/// A hash of the files' stamps, or of their content alone if known.
+/// A hash of the files' stamps, or only of their content if known.
 std::uint64_t sources_key_of(const TileJob& job);
 /// Sets FileStamp::content of all files. Fails with kInput.
 Result<void> add_contents(TileJob& job);
 /// Describes the first file (including the geoid) that has changed since the plan was made: "a.tif is not there any
-/// more". Nothing if none has.
+/// more". Nothing if no file has changed.
 std::optional<std::string> find_changed(const TileJob& job);
-/// Fails with kInput if find_changed() finds a file.
+/// Fails with kInput if find_changed() returns a file.
 Result<void> check_rasters(const TileJob& job);
 
 /// A job for changed or other rasters with the levels and settings of an earlier job, so that unchanged tiles keep
@@ -279,8 +280,8 @@ struct Shard {
 };
 
 /// The blocks made so far: files in a folder. Each process appends to its own file; a truncated record is ignored. A
-/// record holds a block with the files' stamps and the hash of its nodes, or states that a block of these nodes is also
-/// valid for other stamps.
+/// record contains a block with the files' stamps and the hash of its nodes, or states that a block of these nodes is
+/// also valid for other stamps.
 class TileParts {
  public:
   /// Reads all parts in the folder, which need not exist. Fails with kInput for parts of other settings and unreadable
@@ -299,7 +300,7 @@ class TileParts {
   /// Rereads the parts of one shard. Fails as open().
   Result<void> look_again(Shard shard);
   /// Returns the report of make_block(), and passes the block's tiles in order to `put`. Fails with kInput for a
-  /// damaged part, with the file's name, and as `put` does.
+  /// damaged part, naming the file, and as `put` does.
   Result<BlockReport> read(TileId block,
                            const std::function<Result<void>(TileId, std::span<const std::uint8_t>)>& put) const;
 
@@ -313,7 +314,7 @@ class TileParts {
 /// The work of one process.
 struct PartsReport {
   std::uint64_t blocks = 0;     ///< made now
-  std::uint64_t there = 0;      ///< number in its shard that were made before, or meanwhile by another process
+  std::uint64_t there = 0;      ///< number in its shard made before, or meanwhile by another process
   std::uint64_t unchanged = 0;  ///< made before from other files with the same nodes
   std::uint64_t tiles = 0, bytes = 0;
   bool has_company = false;  ///< another process was making the same shard when this one began
@@ -337,7 +338,7 @@ struct PartsCost {
 };
 
 /// Writes all tiles of the parts and of the levels above them to the set, and finishes it. Fails with kInput if blocks
-/// are missing, with their number, and as finish_pyramid() and the set do.
+/// are missing, and reports their number; also fails as finish_pyramid() and the set do.
 Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set,
                                    const Run& run = {}, PartsCost* cost = nullptr);
 

@@ -1,5 +1,5 @@
 // Write, read and check tile sets in folders and one-file containers. All containers hold tiles by TileId, and other
-// files by name, such as "layer.json". A set is read from a container as it was written, byte for byte.
+// files by name, such as "layer.json". Reading returns the written bytes.
 //
 // The container is chosen by the ending of the path:
 //   .pmtiles         PMTiles 3: one file; clients read ranges of it
@@ -56,19 +56,20 @@ class TileSetWriter {
   /// Adds another file. Fails with kOutput. REQUIRES: each name once; a relative path of plain parts, no tile's name,
   /// and one of "layer.json", "tileset.json" and "subtrees/….subtree" if Scarp is to recognise the set as its own.
   virtual Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) = 0;
-  /// Gives the set its name. Fails with kOutput. REQUIRES: called once, at the end.
+  /// Gives the set its final name. Fails with kOutput. REQUIRES: called once, at the end.
   virtual Result<void> finish() = 0;
 };
 
 /// Fails with kUsage for a name of neither a folder nor a container, such as that of a mesh, an image or a tile. Names
 /// that end with a slash and names of existing folders are always folders.
 Result<void> check_set_name(const std::string& path);
-/// Creates a set under a temporary name in the folder of `path`, until finish(). The name of a folder is
-/// ".scarp-tiles-…"; the next set of the same name removes those left by killed processes of this machine. One-file
+/// Creates a set under a temporary name in the folder of `path`, until finish(). A folder is first named
+/// ".scarp-tiles-…"; the next set of the same name removes such folders of killed processes of this machine. One-file
 /// containers need the space of the set twice until finish(). Memory: 24 bytes a tile, with PMTiles twice that. The
 /// bytes of the finished set do not depend on the order of its tiles and files. Fails with kOutput if nothing can be
-/// created, and if `path` exists. Exceptions: an empty folder for a set in a folder; with `overwrite`, a set of Scarp
-/// ("layer.json" or "tileset.json" show that) with nothing else in it. Fails as check_set_name(), too.
+/// created, and if `path` exists. Two existing paths are accepted: an empty folder for a set in a folder and, with
+/// `overwrite`, a set of Scarp (recognised by "layer.json" or "tileset.json") with nothing else in it. Also fails as
+/// check_set_name().
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
 
 /// Reads a finished set. Several threads may read at once.
@@ -85,14 +86,14 @@ class TileSetReader {
   virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
   /// True if the container declares that all tiles are compressed with gzip; nothing if it does not declare this.
   virtual std::optional<bool> says_gzip() const { return std::nullopt; }
-  /// The false declarations of the container about itself, as sentences; they matter to other readers. Reads all its
+  /// False declarations of the container about itself, as sentences; other readers may rely on them. Reads all its
   /// indexes.
   virtual std::vector<std::string> find_faults() const { return {}; }
 };
 
-/// Opens a set, also of other programs: folders of "z/x/y.terrain", compressed or not, even with missing tiles. Fails
-/// with kInput if it is no tile set, damaged or truncated; never trusts a length or an offset in it. Memory: 8 bytes a
-/// tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
+/// Opens a set, also one of other programs: folders of "z/x/y.terrain", compressed or not, even with missing tiles.
+/// Fails with kInput if the path is not a tile set, or the set is damaged or truncated; never trusts a length or an
+/// offset in it. Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
 /// The grid of tiles declared by a set's layer.json or tileset.json; else the geographic one.
@@ -239,7 +240,7 @@ struct TileCheck {
 /// does, and with kUsage for `cells` that do not fit the set's levels; faults of the set are in the result.
 ///
 /// Memory: that of the reader, edges of a row of tiles (some 2 kB a tile), 200 bytes a tile for 3D Tiles, and with
-/// nodes 70 MB. Cost: each tile is decoded once, with nodes twice; each node is read once, and nodes and samples are
+/// nodes 70 MB. Cost: each tile is decoded once, or twice with nodes; each node is read once, and nodes and samples are
 /// judged on each level.
 Result<TileCheck> check_tiles(const TileSetReader& set, const TileCheckOptions& options = {});
 

@@ -1,5 +1,5 @@
 // Give samples individual bounds: from a raster of tolerances, regions of interest, or both (the smaller bound counts).
-// Or weights from a raster of weights.
+// Or give them weights from a raster.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
@@ -59,11 +59,13 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Regi
 
 /// The same tolerances, bit for bit, computed on reading.
 struct RegionBounds {
-  /// For Tolerances::source and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples); if falloff
-  /// > 0, for each region near it at least that of rows of a thousand samples, or six times as wide as the falloff.
+  /// For Tolerances::source and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples). If falloff
+  /// > 0, each region near it costs at least as much as rows of a thousand samples, or as rows six times as wide as the
+  /// falloff.
   std::shared_ptr<const SampleSource> source;
   std::vector<bool> found;  ///< for each region, true if any part of it lies in the raster
-  /// Bytes of memory: for each region 8 a column and 8 a sample on its outline, and the buffers of `threads` readers.
+  /// Bytes of memory: for each region 8 per column and 8 per sample on its outline, and the buffers of `threads`
+  /// readers.
   std::uint64_t bytes = 0;
 };
 /// `threads`: as Run::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().
@@ -72,11 +74,11 @@ RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGri
 /// Individual bounds of samples.
 struct Tolerances {
   /// A bound for each sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, and
-  /// within max_error if given; samples are ranked by |error| / tolerance. Tolerances are a goal: if they do not fit a
-  /// budget, one factor enlarges them all (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
+  /// |error| <= max_error if given; samples are ranked by |error| / tolerance. Tolerances are a goal: if they do not
+  /// fit a budget, one factor enlarges them all (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
   std::span<const float> values = {};
-  /// The same for a field with a source, read in windows like its samples (no NaN). `values` fails with kUsage for a
-  /// field with a source, and this for samples in memory. Borrowed. DEFAULT: none.
+  /// The same for a field with a source, read in windows like its samples (no NaN). simplify() fails with kUsage for
+  /// `values` and a field with a source, and for `source` and samples in memory. Borrowed. DEFAULT: none.
   const SampleSource* source = nullptr;
   /// A weight for each sample, at least 0 and finite (Terra's importance mask): samples are ranked by weight · |error|,
   /// and max_error bounds it. Weight 0 means no bound. Borrowed. DEFAULT: empty, all 1.
@@ -91,8 +93,7 @@ struct ToleranceOptions {
   /// True: returns a source that computes tolerances or weights on reading, for heights with a source. False: returns
   /// values, for heights in memory. DEFAULT: false.
   bool in_windows = false;
-  Run run = {};  ///< threads: the number that will read windows; progress: of the pass "read", if a whole raster is
-                 ///< read
+  Run run = {};  ///< number of threads that will read windows; progress of the pass "read", if a whole raster is read
 };
 
 /// A tolerance for each sample, in z units, at least 0; +infinity: none.
@@ -127,10 +128,10 @@ struct OwnedWeights {
   bool empty() const { return values.empty() && !source; }
 };
 
-/// Makes the weights from a raster of weights: 0 where it has no value; all are divided by the largest if that is above
-/// 1. The call becomes the owner of the raster, and with in_windows reads it once. Fails with kInput, naming the
-/// raster's file, for a negative weight and if no weight is above 0; with kUsage for a raster with a source if values
-/// are requested; as the raster's source does; with kCancelled. Cost: O(samples).
+/// Makes the weights from a raster of weights: 0 where the raster has no value; all weights are divided by the largest
+/// one if that is above 1. The call becomes the owner of the raster, and with in_windows reads it once. Fails with
+/// kInput, naming the raster's file, for a negative weight and if no weight is above 0; with kUsage for a raster with a
+/// source if values are requested; as the raster's source does; with kCancelled. Cost: O(samples).
 Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options = {});
 
 }  // namespace scarp

@@ -52,7 +52,7 @@ bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Poi
       if (is_needed(first, first + length) && !improve(first, first + length, witness)) return false;
     }
   }
-  return true;
+  return energy() < kInfinity;  // energies beyond float32 are those of no triangulation
 }
 
 /// Fills the table of an interval; false where the ring turns out to have no triangulation.

@@ -25,24 +25,26 @@ struct CellBounds {
 /// bound is below the field's max error.
 class BoundLadder {
  public:
-  /// Bounds of 2^-150 to 2^150.
-  static constexpr std::int64_t kLowest = -600, kHighest = 600;
-
   BoundLadder(const CellLattice& lattice, double max_error, bool has_budget);
 
   /// Levels between two rungs.
   std::int64_t step() const { return slots_ * kSmallSteps; }
+  /// Bounds are 2^-150 to 2^150.
+  std::int64_t lowest() const { return -kRange * step(); }
+  std::int64_t highest() const { return kRange * step(); }
   /// The level where all cells stand on the rung at or below a bound.
   std::int64_t level_of(double bound) const;
   CellBounds bounds_of(SampleAt cell, std::int64_t level) const;
-  /// True if each cell's bound is the max error, or the lowest rung.
-  bool is_lowest(std::int64_t level) const;
-  bool is_highest(std::int64_t level) const { return level >= kHighest * step(); }
+  /// True if the cell has the same bounds at both levels.
+  bool is_same(SampleAt cell, std::int64_t level, std::int64_t other) const {
+    return heights_of(cell, level) == heights_of(cell, other);
+  }
 
  private:
-  static constexpr std::int64_t kSmallSteps = 16;
+  static constexpr std::int64_t kSmallSteps = 16, kRange = 600;
 
-  double bound_of(SampleAt cell, std::int64_t level) const;
+  /// Small steps up to the cell, and to the lower one of it and each neighbour: top, bottom, left, right.
+  std::array<std::int64_t, 5> heights_of(SampleAt cell, std::int64_t level) const;
 
   CellLattice lattice_;
   double max_error_;
@@ -50,27 +52,30 @@ class BoundLadder {
   std::int64_t slots_;
 };
 
+/// The triangles that use a budget: 98 %.
+inline std::uint64_t enough(std::uint64_t budget) { return budget - budget / 50; }
+
 /// The search for a level whose mesh has at least 98 % of a budget and not more than all of it.
 class LevelSearch {
  public:
-  LevelSearch(std::uint64_t budget, std::int64_t step) : budget_(budget), step_(step) {}
+  /// `least`: a mesh of so many triangles needs no search.
+  LevelSearch(const BoundLadder& ladder, std::uint64_t budget, std::uint64_t least)
+      : ladder_(ladder), budget_(budget), least_(least) {}
 
-  /// The next level to try, or none: the search ends at `level`, whose mesh has so many triangles. `is_finest`: a lower
-  /// level would not change the mesh.
-  std::optional<std::int64_t> next(std::int64_t level, std::uint64_t triangles, bool is_finest);
+  /// The next level to try, or none: the search ended. `triangles`: of the mesh at `level`; whether another level can
+  /// change it.
+  std::optional<std::int64_t> next(std::int64_t level, std::uint64_t triangles, bool can_be_finer, bool can_be_coarser);
+  /// The lowest level that was tried and keeps the budget.
+  std::optional<std::int64_t> found() const { return found_; }
 
  private:
-  struct Trial {
-    std::int64_t level = 0;
-    double triangles = 0;
-  };
-  std::int64_t estimate(const Trial& now) const;
+  std::int64_t estimate(std::int64_t level, double surplus) const;
 
-  std::uint64_t budget_;
-  std::int64_t step_;
+  const BoundLadder& ladder_;
+  std::uint64_t budget_, least_;
   int tries_ = 0;
-  std::optional<Trial> over_, within_;  // the highest level above the budget, the lowest one within it
-  std::optional<Trial> last_;
+  std::optional<std::int64_t> over_, within_, found_;  // `over_`: the highest level above the budget; `within_`: the
+                                                       // lowest one below the range
 };
 
 }  // namespace scarp::live

@@ -34,6 +34,9 @@ class BorderRows {
 
   /// Fewest vertices between those that both cells need where voids begin or end next to the border.
   std::vector<std::int32_t> simplify(double tolerance, const CellRules& rules) {
+    if (rules.has_budget)
+      tolerance = std::max(tolerance,
+                           finest_bound(find_reach({{}, heights_, {}, {channels_.begin(), channels_.end()}}, rules)));
     for (double& bound : bounds_) bound = std::min(bound, tolerance);
     std::vector<std::int32_t> line;
     std::size_t begin = 0;
@@ -106,6 +109,18 @@ bool has_surface(std::span<const float> heights, std::int32_t cols, std::int32_t
 }
 
 }  // namespace
+
+double find_reach(const CellSamples& samples, const CellRules& rules) {
+  const auto largest = [](std::span<const float> values) {
+    float most = 0;
+    for (const float value : values) most = std::max(most, std::isfinite(value) ? std::abs(value) : 0);
+    return double{most};
+  };
+  double reach = rules.height_scale * largest(samples.heights);
+  for (std::size_t k = 0; k < samples.channels.size(); ++k)
+    reach += rules.channel_scales[k] * largest(samples.channels[k]);
+  return reach;
+}
 
 Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const CellBounds& bounds,
                            const CellRules& rules) {

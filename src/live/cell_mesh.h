@@ -28,11 +28,18 @@ struct CellSamples {
 
 /// Settings of all cells of a field.
 struct CellRules {
+  bool has_budget = false;
   Effort effort = Effort::kFast;
   Norm norm = Norm::kSum;
   double sample_rounding = 0, height_scale = 1;
   std::vector<double> channel_scales;
 };
+
+/// The largest possible norm of the samples.
+double find_reach(const CellSamples& samples, const CellRules& rules);
+/// A quarter of the step between float32 values of that size: a smaller bound would change little, or could not be
+/// kept.
+inline double finest_bound(double reach) { return reach * 0x1p-26; }
 
 /// `place`: the first sample of the whole cell, which the field may clip. Slot and version are not set. Fails as
 /// simplify() does.

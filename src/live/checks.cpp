@@ -30,15 +30,33 @@ Result<void> check_tolerances(std::span<const float> tolerances) {
 Result<void> check_field(const HeightField& field, const LiveOptions& options, std::span<const float> tolerances) {
   const auto refuse = [](std::string why) { return fail(ErrorKind::kUsage, "a live field " + std::move(why)); };
   if (field.samples == nullptr || field.source != nullptr) return refuse("needs its samples in memory");
+  const auto is_weight = [](double scale) { return scale >= 0 && std::isfinite(scale); };
+  if (std::cmp_greater(field.channels.size(), kMaxChannels))
+    return refuse(fmt::format("has at most {} channels, not {}", kMaxChannels, field.channels.size()));
   for (std::size_t k = 0; k < field.channels.size(); ++k) {
-    if (field.channels[k].samples == nullptr) return refuse(fmt::format("lacks the values of channel {}", k + 1));
+    const Channel& channel = field.channels[k];
+    if (channel.samples == nullptr) return refuse(fmt::format("lacks the values of channel {}", k + 1));
+    if (!is_weight(channel.scale))
+      return refuse(fmt::format("needs weights of at least 0, not {} for channel {}", channel.scale, k + 1));
   }
+  if (!is_weight(field.height_scale))
+    return refuse(fmt::format("needs weights of at least 0, not {} for the heights", field.height_scale));
+  if (field.height_scale == 0 &&
+      std::all_of(field.channels.begin(), field.channels.end(), [](const Channel& c) { return c.scale == 0; }))
+    return refuse("needs a weight above 0, for the heights or a channel");
   if (!field.frame.is_affine()) return refuse("needs an affine frame");
   if (field.cols < 2 || field.rows < 2)
     return refuse(fmt::format("needs 2 × 2 samples at least, not {} × {}", field.cols, field.rows));
   if (!(options.max_error >= 0) || !std::isfinite(options.max_error))
     return refuse(fmt::format("needs a finite max error of at least 0, not {}", options.max_error));
-  if (options.effort == Effort::kMax) return refuse("has efforts up to high: max takes seconds for a cell");
+  if (!(field.sample_rounding >= 0) || !std::isfinite(field.sample_rounding))
+    return refuse(fmt::format("needs a finite sample rounding of at least 0, not {}", field.sample_rounding));
+  if (!options.max_triangles && field.sample_rounding > options.max_error)
+    return refuse(fmt::format("needs a max error of at least {}, the rounding of its samples, not {}",
+                              field.sample_rounding, options.max_error));
+  if (options.effort != Effort::kFast && options.effort != Effort::kNormal && options.effort != Effort::kHigh)
+    return refuse("has the efforts fast, normal and high; max takes seconds for a cell");
+  if (options.max_triangles == 0) return refuse("needs a budget of at least 1 triangle");
   constexpr int kLeast = 8, kMost = 254;
   if (options.cell != 0 && (options.cell < kLeast || options.cell > kMost))
     return refuse(fmt::format("has cells of {} to {} samples, not {}", kLeast, kMost, options.cell));

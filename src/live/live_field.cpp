@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,9 +27,11 @@ namespace scarp {
 
 using live::Area;
 using live::BoundLadder;
+using live::CellBounds;
 using live::CellLattice;
 using live::CellRules;
 using live::CellSamples;
+using live::enough;
 using live::FieldSamples;
 using live::LevelSearch;
 using live::Patch;
@@ -54,7 +57,8 @@ std::int64_t first_level(const HeightField& field, const BoundLadder& ladder, do
 }
 
 CellRules rules_of(const HeightField& field, const LiveOptions& options) {
-  CellRules rules{options.effort, options.norm, field.sample_rounding, field.height_scale, {}};
+  CellRules rules{
+      options.max_triangles.has_value(), options.effort, options.norm, field.sample_rounding, field.height_scale, {}};
   for (const Channel& channel : field.channels) rules.channel_scales.push_back(channel.scale);
   return rules;
 }
@@ -71,21 +75,38 @@ float height_or_void(float height, const std::optional<float>& nodata) {
 }  // namespace
 
 struct LiveField::Impl {
+  /// Cells that another bound can change: with more triangles, with fewer.
+  struct Room {
+    std::int64_t finer = 0, coarser = 0;
+
+    void add(const Room& room, const Room& before) {
+      finer += room.finer - before.finer;
+      coarser += room.coarser - before.coarser;
+    }
+  };
   /// The state that readers see.
   struct Shown {
     Area area;
     std::int64_t level = 0;
     std::uint64_t version = 0, triangles = 0;
+    std::uint64_t least = 0;  // triangles that need no search for the budget
+    Room room;
     std::vector<std::uint64_t> versions;  // by slot, of its cell
     std::vector<std::shared_ptr<const LiveCell>> cells;
+    std::vector<Room> rooms;  // by slot
   };
   struct Writer {
     bool is_busy = false;
   };
   /// Result of a change: cells by slot, and the level of their bounds.
   struct Made {
+    struct Cell {
+      std::shared_ptr<LiveCell> mesh;
+      Room room;
+    };
     std::int64_t level = 0;
-    std::map<std::uint32_t, std::shared_ptr<LiveCell>> cells;
+    std::uint64_t least = 0;
+    std::map<std::uint32_t, Cell> cells;
   };
 
   Impl(const HeightField& field, const LiveOptions& asked, bool has_tolerances)
@@ -100,6 +121,7 @@ struct LiveField::Impl {
       now.area = samples.area();
       const std::size_t slots = lattice.slot_count();
       now.versions.resize(slots);
+      now.rooms.resize(slots);
       for (std::uint32_t slot = 0; slot < slots; ++slot) {
         LiveCell empty;
         empty.slot = slot;
@@ -137,70 +159,96 @@ struct LiveField::Impl {
     return moved;
   }
 
-  Result<LiveCell> make_cell(SampleAt at, std::int64_t level) const {
+  Result<Made::Cell> make_cell(SampleAt at, std::int64_t level) const {
     const Area whole = lattice.area_of(at), cell = whole.clipped(samples.area());
     const Patch around = samples.read(cell.grown(1));
     CellSamples read{cell, around.layers[FieldSamples::kHeights], {}, {}};
     if (samples.has_tolerances()) read.tolerances = around.layers[samples.tolerances()];
     for (std::size_t k = 0; k < samples.channel_count(); ++k)
       read.channels.push_back(around.layers[samples.channel(k)]);
-    SCARP_TRY(LiveCell made, live::make_cell(read, {whole.west, whole.north}, ladder.bounds_of(at, level), rules));
+    CellBounds bounds = ladder.bounds_of(at, level);
+    Room room;
+    if (options.max_triangles) {
+      const double reach = live::find_reach(read, rules),
+                   finest = std::max({options.max_error, live::finest_bound(reach), 2 * rules.sample_rounding});
+      bounds.inside = std::max(bounds.inside, finest);
+      room = {bounds.inside > finest, bounds.inside < 2 * reach};
+    }
+    SCARP_TRY(LiveCell made, live::make_cell(read, {whole.west, whole.north}, bounds, rules));
     made.slot = lattice.slot_of(at);
-    return made;
+    if (made.max_error == 0) room.finer = 0;
+    if (made.triangles.empty()) room = {};
+    return Made::Cell{std::make_shared<LiveCell>(std::move(made)), room};
   }
 
   /// Makes cells at the level of `made`, which then has them.
   Result<void> make_cells(const std::vector<SampleAt>& dirty, Made& made) const {
-    std::vector<Result<LiveCell>> cells(dirty.size());
+    std::vector<Result<Made::Cell>> cells(dirty.size());
     parallel_for(dirty.size(), options.threads, [&](std::size_t k) { cells[k] = make_cell(dirty[k], made.level); });
-    for (Result<LiveCell>& cell : cells) {
+    for (Result<Made::Cell>& cell : cells) {
       if (!cell) return tl::unexpected(std::move(cell.error()));
-      made.cells[cell->slot] = std::make_shared<LiveCell>(std::move(*cell));
+      made.cells[cell->mesh->slot] = std::move(*cell);
     }
     return {};
   }
 
-  /// Triangles of the field once it has these cells, and the largest error.
-  std::pair<std::uint64_t, double> count(const Made& made) const {
+  /// Triangles of the field once it has these cells, and their room.
+  std::pair<std::uint64_t, Room> count(const Made& made) const {
     return shown.with([&](const Shown& now) {
-      std::uint64_t triangles = now.triangles;
-      double error = 0;
-      for (const auto& [slot, cell] : made.cells)
-        triangles += added_by(*cell, *now.cells[slot]);
-      for (const auto& cell : now.cells) error = std::max(error, made.cells.contains(cell->slot) ? 0 : cell->max_error);
-      for (const auto& [slot, cell] : made.cells) error = std::max(error, cell->max_error);
-      return std::pair(triangles, error);
+      std::pair counts(now.triangles, now.room);
+      for (const auto& [slot, cell] : made.cells) {
+        counts.first += added_by(*cell.mesh, *now.cells[slot]);
+        counts.second.add(cell.room, now.rooms[slot]);
+      }
+      return counts;
     });
   }
 
   /// Moves to a level that keeps the budget, and makes the cells whose bounds it changes. `dirty`: cells whose samples
-  /// changed, which `made` has. `is_settled`: stays at a level with fewer triangles.
-  Result<void> keep_budget(const std::vector<SampleAt>& dirty, bool is_settled, Made& made) const {
+  /// changed, which `made` has.
+  Result<void> keep_budget(const std::vector<SampleAt>& dirty, Made& made) const {
     if (!options.max_triangles) return {};
     const std::int64_t before = made.level;
-    const std::vector<SampleAt> all = lattice.cells_of(samples.area());
-    LevelSearch search(*options.max_triangles, ladder.step());
+    const std::uint64_t budget = *options.max_triangles;
+    LevelSearch search(ladder, budget, made.least);
+    std::vector<SampleAt> all;
+    Made found;
+    std::uint64_t found_triangles = 0;
+    bool can_be_finer = false;
     for (;;) {
-      const auto [triangles, error] = count(made);
-      const auto next = search.next(made.level, triangles, is_settled || error == 0 || ladder.is_lowest(made.level));
-      if (!next) break;
-      if (*next > made.level && ladder.is_highest(made.level))
+      const auto [triangles, room] = count(made);
+      const auto next = search.next(made.level, triangles, room.finer > 0, room.coarser > 0);
+      if (search.found() == made.level) {
+        found_triangles = triangles;
+        can_be_finer = room.finer > 0;
+        if (next) found = made;
+      }
+      if (!next && !search.found())
         return fail(ErrorKind::kUsage,
                     fmt::format("the live field needs {} triangles with any bound, more than its budget of {}",
-                                triangles, *options.max_triangles));
+                                triangles, budget));
+      if (!next) break;
+      if (all.empty()) all = lattice.cells_of(samples.area());
       std::vector<SampleAt> moved;
       for (const SampleAt cell : all) {
-        if (ladder.bounds_of(cell, made.level) != ladder.bounds_of(cell, *next)) moved.push_back(cell);
+        if (!ladder.is_same(cell, made.level, *next)) moved.push_back(cell);
       }
       made.level = *next;
-      SCARP_RETURN_IF_ERROR(make_cells(moved, made));
+      const Result<void> tried = make_cells(moved, made);
+      if (!tried && !search.found()) return tried;
+      if (!tried) break;  // a bound that arithmetic cannot keep
     }
+    if (search.found() != made.level) made = std::move(found);
+    made.least = enough(budget);
+    // If the count skips the range from one level to the next, the next change need not search there again.
+    if (found_triangles < made.least && can_be_finer)
+      made.least = found_triangles - std::min(found_triangles, budget / 50);
+    if (made.level == before) return {};
     std::vector<bool> is_dirty(lattice.slot_count());
     for (const SampleAt cell : dirty) is_dirty[lattice.slot_of(cell)] = true;
     for (const SampleAt cell : all) {
       const std::uint32_t slot = lattice.slot_of(cell);
-      if (!is_dirty[slot] && ladder.bounds_of(cell, before) == ladder.bounds_of(cell, made.level))
-        made.cells.erase(slot);
+      if (!is_dirty[slot] && ladder.is_same(cell, before, made.level)) made.cells.erase(slot);
     }
     return {};
   }
@@ -215,7 +263,7 @@ struct LiveField::Impl {
         LiveCell empty;
         empty.slot = slot;
         empty.place = now.cells[slot]->place;
-        made.cells[slot] = std::make_shared<LiveCell>(std::move(empty));
+        made.cells[slot] = {std::make_shared<LiveCell>(std::move(empty)), {}};
       }
     });
   }
@@ -224,11 +272,14 @@ struct LiveField::Impl {
     shown.with([&](Shown& now) {
       now.area = samples.area();
       now.level = made.level;
+      now.least = made.least;
       ++now.version;
       for (auto& [slot, cell] : made.cells) {
-        now.triangles += added_by(*cell, *now.cells[slot]);
-        cell->version = now.versions[slot] = now.version;
-        now.cells[slot] = std::move(cell);
+        now.triangles += added_by(*cell.mesh, *now.cells[slot]);
+        now.room.add(cell.room, now.rooms[slot]);
+        now.rooms[slot] = cell.room;
+        cell.mesh->version = now.versions[slot] = now.version;
+        now.cells[slot] = std::move(cell.mesh);
       }
     });
   }
@@ -239,10 +290,10 @@ struct LiveField::Impl {
     Made made;
     Result<void> done;
     try {
-      made.level = shown.with([](const Shown& now) { return now.level; });
+      std::tie(made.level, made.least) = shown.with([](const Shown& now) { return std::pair(now.level, now.least); });
       done = make_cells(dirty, made);
       if (done && is_moved) add_emptied(made);
-      if (done) done = keep_budget(dirty, false, made);
+      if (done) done = keep_budget(dirty, made);
     } catch (...) {
       undo();
       throw;
@@ -324,11 +375,18 @@ Result<LiveField> LiveField::create(const HeightField& field, const LiveOptions&
     SCARP_RETURN_IF_ERROR(impl->samples.check(patch));
     impl->samples.swap(patch);
   }
+  const BoundLadder& ladder = impl->ladder;
+  if (options.level && (*options.level < ladder.lowest() || *options.level > ladder.highest()))
+    return fail(ErrorKind::kUsage, fmt::format("a live field has no level {}: give LiveField::level() of one of the "
+                                               "same size",
+                                               *options.level));
   Impl::Made made;
-  made.level = options.level ? *options.level : first_level(field, impl->ladder, options.max_error);
+  made.level = options.level ? *options.level : first_level(field, ladder, options.max_error);
+  made.least = options.level ? 0 : enough(options.max_triangles.value_or(0));
   const std::vector<SampleAt> all = impl->lattice.cells_of(impl->samples.area());
   SCARP_RETURN_IF_ERROR(impl->make_cells(all, made));
-  SCARP_RETURN_IF_ERROR(impl->keep_budget(all, options.level.has_value(), made));
+  SCARP_RETURN_IF_ERROR(impl->keep_budget(all, made));
+  made.least = enough(options.max_triangles.value_or(0));
   impl->show(std::move(made));
   return LiveField(std::move(impl));
 } catch (...) {

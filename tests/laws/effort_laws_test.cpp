@@ -97,6 +97,28 @@ RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
   }
 }
 
+// Energies of the fit overflow float32 there.
+RC_GTEST_PROP(effort, heights_of_any_magnitude_keep_the_promise, ()) {
+  Field field{*rc::gen::inRange(2, 7), *rc::gen::inRange(2, 7), {}};
+  double largest = 0;
+  for (std::int32_t k = 0; k < field.cols * field.rows; ++k) {
+    const double height = *rc::gen::inRange(-9, 10) * std::pow(10.0, *rc::gen::element(-20, 0, 23, 27, 30));
+    field.samples.push_back(static_cast<float>(height));
+    largest = std::max(largest, std::abs(height));
+  }
+  const double goal = std::pow(10.0, *rc::gen::inRange(-6, 24));
+  const auto made = simplify(field.view(), with_effort(goal, *rc::gen::element(Effort::kNormal, Effort::kHigh)));
+  if (made) RC_ASSERT(measure(field.view(), made->mesh)->max_error <= goal + 1e-12 * largest);
+}
+
+TEST(effort, hopeless_contrasts_end) {
+  Field field{4, 4, {}};
+  field.samples = {0, 2e23f, 1e23f, 0, 3e23f, 2e27f, 2e27f, 3e27f, 3e23f, 2e23f, 1e27f, 3e27f, 2e27f, 2e27f, 1e27f, 0};
+  const auto made = simplify(field.view(), with_effort(1, Effort::kNormal));
+  ASSERT_TRUE(made.has_value());
+  EXPECT_LE(measure(field.view(), made->mesh)->max_error, 1);
+}
+
 TEST(effort, each_level_takes_fewer_triangles) {
   const Field field = testing::random_field(21, testing::fewer(210), testing::fewer(140), Relief::kRidges, 0.02);
   std::size_t before = SIZE_MAX;

@@ -40,13 +40,22 @@ TEST(live_field, refuses_what_it_cannot_follow) {
   };
   HeightField field = hills().view();
   EXPECT_THAT(error_of(field, {.max_error = -1}), HasSubstr("max error of at least 0, not -1"));
-  EXPECT_THAT(error_of(field, {.max_error = 1, .effort = Effort::kMax}), HasSubstr("efforts up to high"));
+  EXPECT_THAT(error_of(field, {.max_error = 1, .effort = Effort::kMax}), HasSubstr("efforts fast, normal and high"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .cell = 7}), HasSubstr("cells of 8 to 254 samples, not 7"));
   EXPECT_THAT(error_of(field, {.max_error = 1}, 5), HasSubstr("of 3500 samples cannot have 5 tolerances"));
   EXPECT_THAT(error_of(field, {.max_error = 1}, 3500), HasSubstr("tolerance 0 (counted from 0) is -1"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .place = {2'000'000'000, 0}}), HasSubstr("within 2^30 samples"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 9}, 3500), HasSubstr("a budget or tolerances"));
-  field.channels.push_back({nullptr});
+  EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 0}), HasSubstr("a budget of at least 1"));
+  EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 900, .level = 1'000'000'000}), HasSubstr("no level"));
+  field.sample_rounding = 2;
+  EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("max error of at least 2, the rounding"));
+  field.sample_rounding = 0;
+  field.height_scale = 0;
+  EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("a weight above 0"));
+  field.channels.push_back({hills().samples.data(), -1});
+  EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("not -1 for channel 1"));
+  field.channels.front() = {nullptr};
   EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("lacks the values of channel 1"));
 }
 

@@ -11,7 +11,7 @@ const forgotten = new FinalizationRegistry(handle => call('scarp_live_free', [ha
 
 function checkWhole(name, value) {
   if (!Number.isInteger(value) || Math.abs(value) > 2 ** 31 - 1)
-    refuse(`${name} is ${show(value)}; it is a whole number`);
+    refuse(`${name} is ${show(value)}; it is a whole number below 2^31 in size`);
 }
 
 export class Live {

@@ -6,8 +6,9 @@ export interface LiveOptions extends Place {
   /** Every sample, as float32, is within this of the mesh, vertically, after every change. Needed without maxTriangles. */
   maxError?: number;
   /**
-   * A budget: after every change the mesh has at most so many triangles, and mostly at least 98 % of them, unless fewer
-   * keep maxError (then 0 by default). The property maxError is what that needs. Not with tolerance.
+   * A budget: the largest number of triangles after every change. Bounds rise and fall for it; the property maxError is
+   * the result. Fields of 50 cells or more mostly use at least 98 % of it, unless fewer triangles keep maxError (0 by
+   * default here) or reproduce the samples. Not with tolerance.
    */
   maxTriangles?: number;
   effort?: 'fast' | 'normal' | 'high';

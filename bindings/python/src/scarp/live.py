@@ -52,8 +52,9 @@ class Live:
 
     source         as in simplify(), but no path; copied
     max_error      every sample, as float32, is within this of the mesh, vertically, after every change; 0 with a budget
-    max_triangles  a budget: after every change the mesh has at most so many triangles, and mostly at least 98 % of
-                   them, unless fewer keep max_error. The property max_error is what that needs. No tolerance then.
+    max_triangles  a budget: the largest number of triangles after every change. Bounds rise and fall for it; the
+                   property max_error is the result. Fields of 50 cells or more mostly use at least 98 % of it,
+                   unless fewer triangles keep max_error or reproduce the samples. Not with tolerance.
     effort         "fast" (DEFAULT), "normal" or "high"
     cell           steps between samples along a cell, 8 to 254. DEFAULT: 32 with "fast", else 64.
     tolerance      (rows, columns) bounds for the samples, or one number; inf: none
