@@ -73,9 +73,11 @@ std::optional<std::int64_t> LevelSearch::next(std::int64_t level, std::uint64_t 
   if (tries_++ > 0) least_ = enough(budget_) + spare;
   if (triangles <= budget_ && (!found_ || level < *found_)) found_ = level;
   const bool is_over = triangles > budget_ - spare;
-  if (is_over ? !can_be_coarser || level >= ladder_.highest()
-              : triangles >= least_ || !can_be_finer || level <= ladder_.lowest())
+  if (is_over && (!can_be_coarser || level >= ladder_.highest())) return std::nullopt;
+  if (!is_over && (triangles >= least_ || !can_be_finer || level <= ladder_.lowest())) {
+    found_ = level;
     return std::nullopt;
+  }
   (is_over ? over_ : within_) = level;
   const bool is_between = over_ && within_;
   if (is_between && (*within_ <= *over_ + 1 || tries_ > kMostTries)) return std::nullopt;

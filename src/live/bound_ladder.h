@@ -65,7 +65,8 @@ class LevelSearch {
   /// The next level to try, or none: the search ended. `triangles`: of the mesh at `level`; whether another level can
   /// change it.
   std::optional<std::int64_t> next(std::int64_t level, std::uint64_t triangles, bool can_be_finer, bool can_be_coarser);
-  /// The lowest level that was tried and keeps the budget.
+  /// The level where it ended: in the range, else the lowest one that was tried and keeps the budget; none if none
+  /// does.
   std::optional<std::int64_t> found() const { return found_; }
 
  private:
