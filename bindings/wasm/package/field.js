@@ -20,14 +20,32 @@ export class Live {
 
   constructor(z, width, height, options) {
     const taken = takeOptions(options, 'live');
-    const { maxTriangles, maxError = maxTriangles && 0, effort = 'fast', cell = 0, tolerance, place = [0, 0], nodata, transform, degrees } = taken;
+    const {
+      maxTriangles,
+      maxError = maxTriangles && 0,
+      effort = 'fast',
+      cell = 0,
+      tolerance,
+      place = [0, 0],
+      nodata,
+      transform,
+      degrees,
+    } = taken;
     if (maxError === undefined) refuse('maxError is missing: give { maxError: 0.05 }');
     for (const value of place) checkWhole('place', value);
     this.#nodata = nodata;
     this.#held = withBlocks(blocks => {
       const { address } = putField(blocks, takeRaster(z, width, height, nodata), width, height, { transform, degrees });
       const bounds = tolerance ? blocks.put(takeBeside('tolerance', tolerance, width, height)) : 0;
-      const asked = putDoubles(blocks, maxError, choose('effort', effort), cell, bounds, Array.from(place), maxTriangles ?? 0);
+      const asked = putDoubles(
+        blocks,
+        maxError,
+        choose('effort', effort),
+        cell,
+        bounds,
+        Array.from(place),
+        maxTriangles ?? 0,
+      );
       return callOrThrow('scarp_live_create', [address, asked]);
     });
     forgotten.register(this, this.#held, this);

@@ -3,7 +3,7 @@ import type { Floats, Heights, Mesh, Numbers, Place } from './index.js';
 export * from './index.js';
 
 export interface LiveOptions extends Place {
-  /** Every sample, as float32, is within this of the mesh, vertically, after every change. Needed without maxTriangles. */
+  /** Every sample, as float32, is within this of the mesh, vertically, after every change. Required without a budget. */
   maxError?: number;
   /**
    * A budget: the largest number of triangles after every change. Bounds rise and fall for it; the property maxError is
@@ -51,8 +51,9 @@ export interface LiveChanges {
 export interface Live extends Disposable {}
 /**
  * A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches. After
- * any changes the mesh has the bytes of one made from the final samples at the same place; with maxTriangles it depends
- * on the changes before, too. A failed call changes nothing. With another entry of the package loaded first, its constructor fails.
+ * any changes the mesh has the bytes of one made from the final samples at the same place; with maxTriangles it also
+ * depends on earlier changes. A failed call changes nothing. With another entry of the package loaded first, its
+ * constructor fails.
  */
 export class Live {
   constructor(z: Heights, width: number, height: number, options: LiveOptions);
