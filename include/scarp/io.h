@@ -226,7 +226,7 @@ std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double
 std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
                                                 int other_cols, int other_rows);
 
-/// The contents of a script for samples, in the order of its lines.
+/// A script as read_script() reads it: samples to insert and to ignore, in the order of its lines.
 struct Script {
   std::vector<SampleAt> inserted;  ///< for Features::points
   std::vector<SampleAt> ignored;   ///< for Tolerances::ignored
@@ -486,8 +486,8 @@ struct GlbOptions {
 /// True if this build can `compress`: it has libmeshoptimizer.
 bool can_compress_glb();
 
-/// The bytes of a GLB file; encode_mesh() returns the same without options. Fails with kOutput as encode_mesh() does,
-/// for images without uvs, and for `compress` if positions are neither on the lattice nor float32, or without
+/// The bytes of a GLB file. With default options they equal those of encode_mesh(). Fails with kOutput as encode_mesh()
+/// does, for images without uvs, and for `compress` if positions are neither on the lattice nor float32, or without
 /// libmeshoptimizer; with kInput if memory runs out.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
 

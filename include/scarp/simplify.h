@@ -112,7 +112,7 @@ struct Simplified {
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
 ///     max_error − field.sample_rounding of `mesh` at its stored positions. Where offsets_are_exact() this holds in
 ///     exact arithmetic; else to the precision of measure()'s double arithmetic (10⁻¹² of the largest height);
-/// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
+/// (2) the domain is the union of grid cells with four valid corners, and of half of each cell with three;
 /// (3) vertices are samples, except on lines, with shape goals, and where Simplified::vertices is kFree; triangles are
 ///     counter-clockwise from above and share whole edges;
 /// (4) the result depends on the field and the options only, not on threads or machine.

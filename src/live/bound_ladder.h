@@ -15,8 +15,6 @@ namespace scarp::live {
 struct CellBounds {
   double inside = 0;
   std::array<double, 4> borders = {};
-
-  friend bool operator==(const CellBounds&, const CellBounds&) = default;
 };
 
 /// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one and in

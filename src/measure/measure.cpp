@@ -151,7 +151,7 @@ class Verdict {
   std::vector<judge::TriangleOffender> offenders_;
 };
 
-/// Bound of the rounding of an error in plain double arithmetic, with a margin: the part from the mesh's heights.
+/// Bound of the rounding error of plain double arithmetic, with a margin: the share of the mesh's heights.
 double error_guard(const Mesh& mesh) {
   double size = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {

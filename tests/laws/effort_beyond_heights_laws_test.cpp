@@ -64,6 +64,18 @@ double norm_at(const Mesh& mesh, const HeightField& view, Norm norm, int col, in
   return norm == Norm::kSum ? sum : norm == Norm::kSquares ? std::sqrt(squares) : largest;
 }
 
+/// All samples are covered, and within the bound by brute force.
+void expect_norm(const Simplified& made, const HeightField& view, const Goals& goals) {
+  RC_ASSERT(made.measurement.uncovered == 0u);
+  RC_ASSERT(measure(view, made.mesh)->is_sound());
+  for (int row = 0; row < view.rows; ++row) {
+    for (int col = 0; col < view.cols; ++col) {
+      if (std::isnan(testing::error_at(made.mesh, view, col, row))) continue;
+      RC_ASSERT(norm_at(made.mesh, view, goals.norm, col, row) <= *goals.max_error * (1 + 1e-9) + 1e-9);
+    }
+  }
+}
+
 bool is_same_mesh(const Simplified& a, const Simplified& b) {
   return a.mesh.positions == b.mesh.positions && a.mesh.triangles == b.mesh.triangles &&
          a.mesh.channels == b.mesh.channels;
@@ -85,15 +97,7 @@ RC_GTEST_PROP(channels_of_efforts, keep_their_norm_with_no_more_triangles_on_any
   RC_ASSERT(made->vertices == Vertices::kSamples);
   RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
   RC_ASSERT(made->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
-  RC_ASSERT(made->measurement.uncovered == 0u);
-  RC_ASSERT(measure(view, made->mesh)->is_sound());
-  for (int row = 0; row < view.rows; ++row) {
-    for (int col = 0; col < view.cols; ++col) {
-      if (std::isnan(testing::error_at(made->mesh, view, col, row))) continue;
-      RC_ASSERT(norm_at(made->mesh, view, options.goals.norm, col, row) <=
-                *options.goals.max_error * (1 + 1e-9) + 1e-9);
-    }
-  }
+  expect_norm(*made, view, options.goals);
   for (const int threads : {2, 4}) {
     options.run.threads = threads;
     RC_ASSERT(is_same_mesh(*simplify(view, options), *made));
@@ -145,15 +149,7 @@ RC_GTEST_PROP(channels_of_efforts, keep_their_norm_within_a_locked_border_that_n
       RC_ASSERT(made.error().kind == ErrorKind::kInput);  // no surface
       return;
     }
-    RC_ASSERT(made->measurement.uncovered == 0u);
-    RC_ASSERT(measure(view, made->mesh)->is_sound());
-    for (int row = 0; row < view.rows; ++row) {
-      for (int col = 0; col < view.cols; ++col) {
-        if (std::isnan(testing::error_at(made->mesh, view, col, row))) continue;
-        RC_ASSERT(norm_at(made->mesh, view, options.goals.norm, col, row) <=
-                  *options.goals.max_error * (1 + 1e-9) + 1e-9);
-      }
-    }
+    expect_norm(*made, view, options.goals);
     shared[side] = values_on(made->mesh, side == 0 ? at : 0);
   }
   const std::vector<float>& heights = whole.heights.samples;

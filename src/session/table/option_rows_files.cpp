@@ -452,7 +452,7 @@ const OptionRow kFileRows[] = {
      .least = 1,
      .most = 16384,
      .limit_why = "graphics cards show no more pixels",
-     .range = "1 to 16384, at most one a sample",
+     .range = "1 to 16384, at most one pixel a sample",
      .help = "Store the normals of the full-resolution raster in the GLB as an image, N pixels on its longer side: "
              "coarse meshes are shaded like fine ones."},
     {.id = kJson,

@@ -247,8 +247,8 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "W,S,E,N",
      .unit = "degrees",
-     .help = "Make only blocks that touch the box; blocks outside are treated as nodata. The tiles made equal those "
-             "of the whole set."},
+     .help = "Make only blocks that touch the box; blocks outside are treated as nodata. These tiles are identical "
+             "to those of the whole set."},
     {.id = kOnly,
      .name = "--only",
      .commands = kTileRun,
