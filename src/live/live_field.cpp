@@ -159,22 +159,26 @@ struct LiveField::Impl {
     return moved;
   }
 
+  /// Borrows the patch.
+  CellSamples view(const Patch& patch, const Area& cell) const {
+    CellSamples view{cell, patch.layers[FieldSamples::kHeights], {}, {}};
+    if (samples.has_tolerances()) view.tolerances = patch.layers[samples.tolerances()];
+    for (std::size_t k = 0; k < samples.channel_count(); ++k) view.channels.push_back(patch.layers[samples.channel(k)]);
+    return view;
+  }
+
   Result<Made::Cell> make_cell(SampleAt at, std::int64_t level) const {
     const Area whole = lattice.area_of(at), cell = whole.clipped(samples.area());
     const Patch around = samples.read(cell.grown(1));
-    CellSamples read{cell, around.layers[FieldSamples::kHeights], {}, {}};
-    if (samples.has_tolerances()) read.tolerances = around.layers[samples.tolerances()];
-    for (std::size_t k = 0; k < samples.channel_count(); ++k)
-      read.channels.push_back(around.layers[samples.channel(k)]);
     CellBounds bounds = ladder.bounds_of(at, level);
     Room room;
     if (options.max_triangles) {
-      const double reach = live::find_reach(read, rules),
+      const double reach = live::find_reach(view(samples.read(cell), cell), rules),
                    finest = std::max({options.max_error, live::finest_bound(reach), 2 * rules.sample_rounding});
       bounds.inside = std::max(bounds.inside, finest);
       room = {bounds.inside > finest, bounds.inside < 2 * reach};
     }
-    SCARP_TRY(LiveCell made, live::make_cell(read, {whole.west, whole.north}, bounds, rules));
+    SCARP_TRY(LiveCell made, live::make_cell(view(around, cell), {whole.west, whole.north}, bounds, rules));
     made.slot = lattice.slot_of(at);
     if (made.max_error == 0) room.finer = 0;
     if (made.triangles.empty()) room = {};

@@ -288,8 +288,9 @@ RC_GTEST_PROP(live_field, keeps_a_budget_and_the_bounds_that_it_needs, ()) {
       RC_ASSERT(live->scroll(cols, rows).has_value());
       model.scroll(cols, rows);
     } else {
-      const Field anew = random_field(*rc::gen::arbitrary<std::uint32_t>(), model.cols, model.rows,
-                                      *rc::gen::element(testing::Relief::kRidges, testing::Relief::kReal));
+      Field anew = random_field(*rc::gen::arbitrary<std::uint32_t>(), model.cols, model.rows,
+                                *rc::gen::element(testing::Relief::kRidges, testing::Relief::kReal));
+      if (*rc::gen::inRange(0, 4) == 0) anew.samples[*rc::gen::inRange<std::size_t>(0, anew.samples.size())] *= 0x1p40f;
       const int rows = *rc::gen::inRange(1, model.rows + 1);
       const auto samples = static_cast<std::size_t>(model.cols) * static_cast<std::size_t>(rows);
       std::copy_n(anew.samples.begin(), samples, model.heights.begin());
