@@ -258,7 +258,7 @@ struct FeatureFitOptions {
   Run run = {};          ///< progress of the pass "ridges"
 };
 
-/// The lines of a mesh for one max error, and their origins.
+/// The lines of a mesh for one max error, and the features that they come from.
 struct FittedFeatures {
   LineConstraints lines;         ///< breaklines, shores, rivers, walls, ridges, valleys
   std::vector<River> rivers;     ///< rings, and lines without a height anywhere, are omitted

@@ -46,7 +46,7 @@ struct LiveOptions {
   /// or reproduce the samples; where one cell has many of the triangles, it may be less. Not with tolerances. DEFAULT:
   /// none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
-  /// LiveField::level() of another field of this size: with its samples the mesh is the same. The first search for the
+  /// LiveField::level() of another field of this size: equal samples then give equal meshes. The first search for the
   /// budget is then omitted, unless the mesh exceeds it. DEFAULT: found from the heights.
   std::optional<std::int64_t> level = std::nullopt;
   /// The norm over heights and channels, as Goals::norm, for fields with channels.

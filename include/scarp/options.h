@@ -76,8 +76,8 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 /// sample, at the bilinear height of the raster. No two share a lattice point. Vertices added for angles are at least
 /// 1/32 of a sample (or a quarter of max_edge, if less) from all others, so refinement always ends. Outlines are split
 /// exactly; lines and cuts are split within a 256th of a sample, at their own heights. Efforts above fast then remove
-/// and move vertices that angles, lengths and the bound do not need. High effort also makes the mesh of normal effort,
-/// and max effort that of high. The result is the mesh with fewer triangles, unless the time is up.
+/// vertices that angles, lengths and the bound do not need, and move others. High effort also makes the mesh of normal
+/// effort, and max effort that of high. The result is the mesh with fewer triangles, unless the time is up.
 ///
 /// Guarantees, up to the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3)
 /// each triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners
@@ -256,7 +256,7 @@ struct Importance {
 /// The search for the next candidate (the paper's section 4). All three insert the same samples in the same order.
 enum class Algorithm {
   kBruteForce,  ///< I: scan all samples before each insertion. O(m n)
-  kLocal,       ///< II: rescan changed triangles, scan all triangles. O(n log m + m²)
+  kLocal,       ///< II: rescan changed triangles, compare all triangles. O(n log m + m²)
   kHeap,        ///< III: rescan changed triangles, keep triangles in a heap. O((n + m) log m)
 };
 

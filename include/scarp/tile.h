@@ -307,7 +307,7 @@ struct PyramidSettings {
   /// Height for nodes without a height, in metres. DEFAULT: 0, the ellipsoid.
   float background = 0;
   /// True if each tile with a child has all four, also those without heights. Where a child is missing, clients of 3D
-  /// Tiles show a hole; clients of quantized-mesh cut it out of its parent. DEFAULT: false.
+  /// Tiles show a hole; clients of quantized-mesh show that part of its parent. DEFAULT: false.
   bool has_siblings = false;
   Geodetic ellipsoid = {};
   TileGrid grid = {};  ///< DEFAULT: geographic.
