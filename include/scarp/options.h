@@ -205,7 +205,8 @@ struct Border {
   /// weights. A search for a budget does not change the line.
   std::optional<double> max_error = std::nullopt;
   /// The vertices of the line. Corners, and the first and last sample of each run of valid samples, are always
-  /// vertices. DEFAULT: those of simplify_edge().
+  /// vertices. DEFAULT: those of simplify_edge(); for fields with channels, those of a line within the norm, whose
+  /// segments span at most 256 steps.
   std::optional<EdgeVertices> vertices = std::nullopt;
   /// For normals; each list as long as its edge, or empty. DEFAULT: unknown. See read_beyond().
   BeyondEdges beyond = {};

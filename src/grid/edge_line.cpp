@@ -123,9 +123,8 @@ class EdgeLine {
 double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i) {
   double total = 0;
   for (const auto& [values, scale] : fields) {
-    const double from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
-    const double line = from + (to - from) * (static_cast<double>(i - a) / (b - a));
-    total = add_to_norm_of(norm, total, scale * std::abs(line - double{values[static_cast<std::size_t>(i)]}));
+    const double error = std::abs(chord_value(values, a, b, i) - double{values[static_cast<std::size_t>(i)]});
+    total = add_to_norm_of(norm, total, scale * error);
   }
   return total;
 }

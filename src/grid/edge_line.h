@@ -1,6 +1,7 @@
 // The line of an edge whose samples have several values.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,11 @@ struct EdgeField {
 std::vector<std::int32_t> simplify_edge(std::span<const EdgeField> fields, Norm norm, double tolerance,
                                         std::span<const double> tolerances);
 
+/// The value at sample i of the chord from sample a to sample b.
+inline double chord_value(std::span<const float> values, std::int32_t a, std::int32_t b, std::int32_t i) {
+  const double from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
+  return from + (to - from) * (static_cast<double>(i - a) / (b - a));
+}
 /// The norm at sample i of the errors of the chord from sample a to sample b.
 double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i);
 

@@ -390,7 +390,7 @@ Result<LiveField> LiveField::create(const HeightField& field, const LiveOptions&
   const std::vector<SampleAt> all = impl->lattice.cells_of(impl->samples.area());
   SCARP_RETURN_IF_ERROR(impl->make_cells(all, made));
   SCARP_RETURN_IF_ERROR(impl->keep_budget(all, made));
-  made.least = enough(options.max_triangles.value_or(0));
+  if (options.level) made.least = enough(options.max_triangles.value_or(0));
   impl->show(std::move(made));
   return LiveField(std::move(impl));
 } catch (...) {

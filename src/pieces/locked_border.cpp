@@ -34,10 +34,7 @@ namespace {
 struct Chord {
   std::int32_t a, b;
 
-  double value_at(std::span<const float> values, std::int32_t i) const {
-    const double from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
-    return from + (to - from) * (static_cast<double>(i - a) / (b - a));
-  }
+  double value_at(std::span<const float> values, std::int32_t i) const { return chord_value(values, a, b, i); }
   /// True if the sample is farther from the chord than the bound, as real numbers.
   bool misses(std::span<const float> values, std::int32_t i, double bound) const {
     const float from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];

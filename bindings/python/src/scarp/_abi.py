@@ -74,7 +74,8 @@ class Volumes(C.Structure):
 
 class LiveOptions(C.Structure):
     _fields_ = [("struct_size", C.c_uint32), ("threads", C.c_int32), ("max_error", C.c_double), ("effort", C.c_int32),
-                ("cell", C.c_int32), ("col", C.c_int32), ("row", C.c_int32), ("tolerance", C.c_void_p), ("max_triangles", C.c_uint64)]
+                ("cell", C.c_int32), ("col", C.c_int32), ("row", C.c_int32), ("tolerance", C.c_void_p),
+                ("max_triangles", C.c_uint64)]
 
 
 class LiveCell(C.Structure):

@@ -74,8 +74,8 @@ class Live:
     _handle: Optional[int]
 
     def __init__(self, source: Any, max_error: Optional[float] = None, *, max_triangles: Optional[int] = None,
-                 effort: str = "fast", cell: int = 0, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None, tolerance: Any = None,
-                 place: tuple[int, int] = (0, 0), threads: int = 1) -> None:
+                 effort: str = "fast", cell: int = 0, band: int = 1, transform: Any = None, crs: Any = None,
+                 nodata: Optional[float] = None, tolerance: Any = None, place: tuple[int, int] = (0, 0), threads: int = 1) -> None:
         self._handle = None
         if numpy_if_there() is None:
             raise UsageError("scarp.Live needs numpy")
