@@ -1,9 +1,9 @@
 // The workbench of fitting: a piece of a triangulation that is changed in place, a star at a time.
 //
-// A patch holds triangles of the domain only. Whatever must not change is its border: edges to triangles of other
-// patches, to the outside, and constrained ones, which are borders on both sides; their ends are locked. The
-// rectangle's own sides are borders too, but a vertex on one of them may go if the side stays as it is: corners are
-// locked, the others are not.
+// A patch contains only triangles of the domain. Its border consists of the edges that must not change: edges to other
+// patches or to the outside, and constrained edges, which are borders on both sides. Their ends are locked. The
+// rectangle's sides are borders too, but only its corners are locked: a vertex on a side may be removed, since the side
+// stays the same.
 //
 //     beyond[2]  r3 ──── r2  beyond[1]      the star of v: triangles (v, r_i, r_i+1) in positive order; closed, or from
 //               /  \   /  \                 side to side
@@ -26,9 +26,9 @@ namespace scarp {
 class Patch {
  public:
   using Id = std::uint32_t;
-  /// triangle << 2 | edge of that triangle, edge k from corner k to corner k + 1; or a border.
+  /// triangle << 2 | edge of that triangle, where edge k joins corners k and k + 1; or a border.
   using Link = std::uint32_t;
-  static constexpr Link kBorder = 0x80000000u;  ///< kBorder | index into fixed(), or one of the two:
+  static constexpr Link kBorder = 0x80000000u;  ///< kBorder | index into fixed(), or one of the next two:
   static constexpr Link kSide = 0xffffffffu;    ///< the rectangle's side
   static constexpr Link kConstrainedSide = 0xfffffffeu;
   static constexpr bool is_border(Link link) { return (link & kBorder) != 0; }
@@ -37,35 +37,40 @@ class Patch {
   static constexpr unsigned edge_of(Link link) { return link & 3; }
 
   /// Half a cache line.
-  struct alignas(32) Face {
-    std::array<Id, 3> corners;  ///< positive; corners[0] is kNone where there is no triangle any more
+  struct Face {
+    std::array<Id, 3> corners;  ///< positive; corners[0] is kNone if the triangle was removed
     std::array<Link, 3> links;
-    float worst, energy;  ///< values of TriangleError::Verdict; negative: not known yet
+    float worst, energy;  ///< values of TriangleError::Verdict; negative: unknown
   };
   static_assert(sizeof(Face) == 32);
 
   struct Node {
     FitCorner at;
-    Id face = kNone;  ///< one of its triangles; kNone once it is removed
+    Id face = kNone;  ///< one of its triangles; kNone if the vertex was removed
   };
 
-  /// Triangles around a vertex, and what lies beyond them.
+  /// Triangles around a vertex, and links beyond them.
   struct Star {
+    Star() {
+      constexpr std::size_t kUsual = 16;
+      for (std::vector<Id>* ids : {&faces, &ring, &beyond}) ids->reserve(kUsual);
+    }
+
     bool closed = true;
     std::vector<Id> faces;     ///< face i is (v, ring i, ring i + 1)
     std::vector<Id> ring;      ///< one more than faces in an open star
     std::vector<Link> beyond;  ///< links beyond the edge from ring i to ring i + 1
-    Link side = kSide;         ///< open: what the edge from the last of the ring to the first becomes
+    Link side = kSide;         ///< open: link of the edge that will close the ring
   };
 
-  /// One triangle of a triangulated ring, by indices into it, first < middle < last. A list of them is in order if each
-  /// is followed by those beyond its edge first → middle, then by those beyond middle → last.
+  /// One triangle of a triangulated ring, by indices into the ring, first < middle < last. A list of them is in order
+  /// if each triangle is followed by those beyond its edge first → middle, then by those beyond middle → last.
   struct RingTriangle {
     std::uint8_t first, middle, last;
     float worst, energy;
   };
 
-  std::size_t face_count() const { return faces_.size(); }  ///< until pack(), with those that are no triangles any more
+  std::size_t face_count() const { return faces_.size(); }  ///< including removed ones until pack()
   std::size_t node_count() const { return nodes_.size(); }
   const Face& face(Id f) const { return faces_[f]; }
   const FitCorner& at(Id v) const { return nodes_[v].at; }
@@ -86,17 +91,17 @@ class Patch {
     faces_[f].energy = energy;
   }
 
-  /// For a locked vertex it is the part around one of its triangles, from border to border. REQUIRES: v is not removed.
-  /// Cost: O(its degree).
+  /// Around a locked vertex, only the part from border to border that contains one of its triangles. REQUIRES: v is not
+  /// removed. Cost: O(its degree).
   void find_star(Id v, Star& star) const;
 
-  /// Removes v, whose star is given, and puts the triangles in its place. REQUIRES: they triangulate the star's ring,
-  /// all positive, in order.
+  /// Removes v and replaces its star by the triangles. REQUIRES: they triangulate the star's ring, are positive and in
+  /// order.
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
 
-  /// A new vertex within the face, or, where an edge is given, on that edge between its two faces: three, or four,
-  /// triangles around it replace them. Returns the vertex; the triangles are its star, their errors not known.
-  /// REQUIRES: they are positive; the edge is no border; no transaction is open.
+  /// Inserts a vertex within the face, or on its edge if one is given. Three triangles around the vertex replace the
+  /// face, or four the edge's two faces; their errors are unknown. Returns the vertex. REQUIRES: the triangles are
+  /// positive; the edge is no border; no transaction is open.
   Id insert(const FitCorner& at, Id f);
   Id insert(const FitCorner& at, Id f, unsigned edge);
 
@@ -111,30 +116,31 @@ class Patch {
   /// Changes the diagonal: (c, a, d) replaces q.face, (d, b, c) of q.beyond. REQUIRES: both are positive.
   void flip(const Quad& q);
 
-  /// REQUIRES: the triangles around v stay positive, those of a side on their side.
+  /// REQUIRES: the triangles around v stay positive; a vertex on a side stays on it.
   void move(Id v, const FitCorner& to) {
     node_journal_.touch(nodes_, v);
     nodes_[v].at = to;
   }
 
-  /// From here on changes can be undone.
+  /// Begins a transaction: roll_back() undoes later changes.
   void begin();
   void commit();
   void roll_back();
-  /// The triangles that were touched since begin(), as they were before.
+  /// The triangles touched since begin(), in their earlier state.
   std::span<const Journal<Face>::Copy> touched() const { return face_journal_.copies(); }
 
-  /// Numbers the faces anew, without gaps, and gives back the memory of those that are gone.
+  /// Renumbers the faces without gaps, and frees the memory of removed ones.
   void pack();
 
  private:
   friend class PatchCutter;
 
-  /// The star from a triangle on, whose corner it belongs to; false where it ends at a border.
+  /// One corner of a rim; corners are counter-clockwise.
   struct Rim {
     Id from;
     Link beyond;  // link of the edge to the next
   };
+  /// Fills the star from triangle f on; false if it ends at a border.
   bool walk(Id f, unsigned corner, Star& star) const;
   Id fan(const FitCorner& at, std::span<const Rim> rim, std::array<Id, 4> faces, std::size_t reused);
   void attach(Id f, unsigned edge, Link beyond);
@@ -154,7 +160,7 @@ class Patch {
   std::vector<HalfEdge> fixed_;
   Journal<Face> face_journal_;
   Journal<Node> node_journal_;
-  std::vector<Link> open_;  // edges whose triangles are still to come
+  std::vector<Link> open_;  // edges that await their triangles
 };
 
 }  // namespace scarp

@@ -24,7 +24,7 @@ class TileMesh {
   using Link = std::uint32_t;
   static constexpr Link kBorder = 0xffffffffu;
 
-  struct alignas(32) Record {
+  struct Record {
     std::array<TilePoint, 3> corners;  // positive orientation
     std::array<Link, 3> links;         // links beyond edge k
     std::int64_t key;                  // for the owner, at least 0; kOutside: not part of the domain
