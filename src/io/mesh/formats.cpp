@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-// Each is defined in the file of its format.
+// Each writer is defined in the file of its format.
 using PlainWriter = Result<std::vector<std::uint8_t>>(const Mesh& mesh);
 PlainWriter encode_glb, encode_obj, encode_stl, encode_tin, encode_vtu, encode_vtp, encode_landxml, encode_dxf,
     encode_gpkg, encode_one_3mf;
@@ -89,7 +89,7 @@ constexpr MeshFormatRow kRows[] = {
                 .name = "tin",
                 .title = "TIN",
                 .endings = "tin",
-                .contents = "a line a triangle, no shared vertices",
+                .contents = "one line per triangle, no shared vertices",
                 .read_by = "Scape, Terra",
                 .has_projection_file = true,
                 .bytes_per_vertex = 400},
@@ -162,7 +162,7 @@ constexpr MeshFormatRow kRows[] = {
                 .title = "GeoPackage",
                 .endings = "gpkg",
                 .media_type = "application/geopackage+sqlite3",
-                .contents = "a layer `terrain` of polygons with z, one a triangle",
+                .contents = "a layer `terrain` of polygons with z, one per triangle",
                 .read_by = "GDAL, QGIS",
                 .frame = DefaultFrame::kSource,
                 .holds_space = false,
