@@ -22,7 +22,9 @@ class EdgeLine {
         heights_(fields.front().values),
         tolerance_(tolerance),
         tolerances_(tolerances),
-        before_(heights_.size(), kUnseen) {}
+        before_(heights_.size(), kUnseen) {
+    for (std::vector<std::int32_t>* reached : {&level_, &next_}) reached->reserve(heights_.size());
+  }
 
   std::vector<std::int32_t> find() {
     for (std::size_t first = 0; first < heights_.size();) {
@@ -41,17 +43,17 @@ class EdgeLine {
 
   /// Adds samples by the number of segments from `first` on, each for the lowest segment that reaches it.
   void add_run(std::size_t first, std::size_t last) {
-    std::vector<std::size_t> level{first}, next;
+    level_.assign(1, static_cast<std::int32_t>(first));
     while (last != first && before_[last] == kUnseen) {
-      next.clear();
-      for (const std::size_t i : level) {
+      next_.clear();
+      for (const std::int32_t i : level_) {
         if (fields_.size() == 1 && fields_.front().scale == 1)
-          look_from(i, last, next);
+          look_from(static_cast<std::size_t>(i), last);
         else
-          look_from_norm(i, last, next);
+          look_from_norm(static_cast<std::size_t>(i), last);
       }
-      std::sort(next.begin(), next.end());
-      level.swap(next);
+      std::sort(next_.begin(), next_.end());
+      level_.swap(next_);
     }
     const auto begin = static_cast<std::ptrdiff_t>(vertices_.size());
     for (std::size_t i = last; i != first; i = static_cast<std::size_t>(before_[i]))
@@ -61,22 +63,19 @@ class EdgeLine {
   }
 
   /// The slopes of segments from `i` that pass all samples so far within their bounds form an interval.
-  void look_from(std::size_t i, std::size_t last, std::vector<std::size_t>& next) {
+  void look_from(std::size_t i, std::size_t last) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     const double from = heights_[i];
     for (std::size_t j = i + 1, end = std::min(last, i + kMostSteps); j <= end && low <= high; ++j) {
       const double rise = heights_[j] - from, steps = static_cast<double>(j - i), slope = rise / steps;
-      if (before_[j] == kUnseen && slope >= low && slope <= high) {
-        before_[j] = static_cast<std::int32_t>(i);
-        next.push_back(j);
-      }
+      if (before_[j] == kUnseen && slope >= low && slope <= high) reach(j, i);
       low = std::max(low, (rise - bound(j)) / steps);
       high = std::min(high, (rise + bound(j)) / steps);
     }
   }
 
   /// No norm is smaller than one of its errors: each field alone bounds the slopes.
-  void look_from_norm(std::size_t i, std::size_t last, std::vector<std::size_t>& next) {
+  void look_from_norm(std::size_t i, std::size_t last) {
     struct Slopes {
       double low = -std::numeric_limits<double>::infinity(), high = -low;
     };
@@ -85,10 +84,7 @@ class EdgeLine {
       return std::all_of(slopes.begin(), slopes.end(), [](const Slopes& s) { return s.low <= s.high; });
     };
     for (std::size_t j = i + 1, end = std::min(last, i + kMostStepsOfSeveral); j <= end && is_open(); ++j) {
-      if (before_[j] == kUnseen && passes(i, j)) {
-        before_[j] = static_cast<std::int32_t>(i);
-        next.push_back(j);
-      }
+      if (before_[j] == kUnseen && passes(i, j)) reach(j, i);
       const double steps = static_cast<double>(j - i);
       for (std::size_t f = 0; f < fields_.size(); ++f) {
         const auto& [values, scale] = fields_[f];
@@ -98,6 +94,11 @@ class EdgeLine {
         slopes[f].high = std::min(slopes[f].high, (rise + room) / steps);
       }
     }
+  }
+
+  void reach(std::size_t sample, std::size_t from) {
+    before_[sample] = static_cast<std::int32_t>(from);
+    next_.push_back(static_cast<std::int32_t>(sample));
   }
 
   bool passes(std::size_t a, std::size_t b) const {
@@ -115,6 +116,7 @@ class EdgeLine {
   double tolerance_;
   std::span<const double> tolerances_;
   std::vector<std::int32_t> before_;
+  std::vector<std::int32_t> level_, next_;  ///< samples that a number of segments reaches, and one segment more
   std::vector<std::int32_t> vertices_;
 };
 

@@ -22,6 +22,11 @@ class BorderRows {
   BorderRows(const CellSamples& samples, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t across,
              std::int32_t count)
       : channels_(samples.channels.size()) {
+    const auto most = static_cast<std::size_t>(count);
+    heights_.reserve(most);
+    bounds_.reserve(samples.tolerances.empty() ? 0 : most);
+    for (std::vector<float>& channel : channels_) channel.reserve(most);
+    for (std::vector<std::uint8_t>& valid : valid_) valid.reserve(most);
     for (std::int32_t k = 0; k < count; ++k, first += step) {
       const auto at = std::size_t(first);
       heights_.push_back(samples.heights[at]);
@@ -151,6 +156,7 @@ Result<LiveCell> make_cell(const CellSamples& samples, SampleAt place, const Cel
   asked.domain.border.vertices = find_borders(samples, bounds, rules);
   asked.run.threads = 1;
   SCARP_TRY(auto&& made, scarp::simplify(field, asked));
+  cell.positions.reserve(made.mesh.positions.size());
   for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
     for (const double coordinate : made.mesh.vertex(v)) cell.positions.push_back(static_cast<float>(coordinate));
   }

@@ -15,7 +15,7 @@ namespace {
 /// Doubles of a cache line.
 constexpr std::size_t kLine = 8;
 
-/// Sets 1 for each valid sample. Returns true if all are.
+/// Sets 1 for each valid sample. Returns true if all are valid.
 bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   bool all = true;
   for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -77,6 +77,7 @@ Result<void> Band::take_heights(const HeightField& field) {
   }
   const float nodata = field.samples != nullptr ? field.nodata.value_or(kNone) : kNone;
   std::vector<RowHeights> taken;
+  taken.reserve(static_cast<std::size_t>(rows_) + 2);
   for (int row = first_ - 1; row <= end(); ++row) {
     float* heights = &heights_[height_at(0, row)];
     if (row < top || row >= bottom) {
@@ -98,6 +99,7 @@ bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
   const float* const from = field.samples + static_cast<std::size_t>(top) * static_cast<std::size_t>(cols_);
   const float nodata = field.nodata.value_or(std::numeric_limits<float>::quiet_NaN());
   std::vector<RowHeights> taken;
+  taken.reserve(static_cast<std::size_t>(rows_) + 2);
   for (int row = top; row < bottom; ++row) {
     const float* heights = from + static_cast<std::ptrdiff_t>(row - top) * cols_;
     taken.push_back(judge_kernels().take_row(heights, cols_, nodata, nullptr));
@@ -109,7 +111,7 @@ bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
   return true;
 }
 
-/// Adds the range of the band's rows; the lowest and the highest first, so that most others need no scan.
+/// Adds the range of the band's rows, the lowest and the highest row first, so that most other rows need no scan.
 void Band::note_range(const std::vector<RowHeights>& rows, int top) {
   int lowest = first_, highest = first_;
   const auto heights_of = [&](int row) -> const RowHeights& { return rows[static_cast<std::size_t>(row - top)]; };
@@ -296,7 +298,7 @@ BandReport Band::finish(Keep keep) {
     }
   }
   find_largest();
-  // Keep only a triangle's worst sample; ties by the lowest row, then column.
+  // Keep only the worst sample of each triangle; ties by the lowest row, then column.
   auto& offenders = report_.offenders;
   sort_rarely(offenders, is_worse_of_triangle);
   const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };

@@ -19,7 +19,7 @@ void Histogram::make_page(std::uint32_t index) {
   pages_[index] = static_cast<std::uint32_t>(begin);
 }
 
-/// Around the exponent of the first row's largest error.
+/// Makes pages around the exponent of the first row's largest error.
 void Histogram::make_first_pages(std::uint32_t index) {
   constexpr std::uint32_t kBelow = 9, kAbove = 2;
   const std::uint32_t first = index - std::min(index, kBelow), last = std::min(index + kAbove, kPages - 1);
@@ -109,33 +109,48 @@ std::uint64_t Histogram::count_in(std::size_t first, std::size_t end) const {
 
 namespace {
 
-/// The last finite bucket ends at infinity; none is above it.
+/// The last finite bucket ends at infinity; there is no bucket above it.
 double end_of(std::uint32_t bucket) { return static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)); }
 
 }  // namespace
 
-/// Finds ascending ranks, from 1 to the number counted: by the counts of coarse bins, then within the rank's bin.
+/// Finds the values of ascending ranks, from 1 to the number counted: first by the counts of coarse bins, then in the
+/// ranks' bins.
 void Histogram::find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const {
   constexpr std::uint32_t kBins = 1024;
   const std::uint32_t largest = few_.empty() ? 0 : *std::max_element(few_.begin(), few_.end());
   std::uint32_t shift = 0;
   while (largest >> shift >= kBins) ++shift;
-  std::array<std::uint32_t, kBins> counts{};
+  std::array<std::uint32_t, kBins> counts{}, ends;
   for (const std::uint32_t bucket : few_) ++counts[bucket >> shift];
-  std::uint64_t passed = static_cast<std::uint64_t>(zeros_);
-  std::vector<std::uint32_t> in_bin;
-  std::size_t i = 0;
-  for (std::uint32_t bin = 0; bin < kBins && i < ranks.size(); passed += counts[bin++]) {
-    if (ranks[i] > passed + counts[bin]) continue;
-    in_bin.clear();
-    std::copy_if(few_.begin(), few_.end(), std::back_inserter(in_bin),
-                 [&](std::uint32_t bucket) { return bucket >> shift == bin; });
-    for (; i < ranks.size() && ranks[i] <= passed + counts[bin]; ++i) {
-      if (ranks[i] <= passed) continue;  // a zero
-      const auto at = in_bin.begin() + static_cast<std::ptrdiff_t>(ranks[i] - passed - 1);
-      std::nth_element(in_bin.begin(), at, in_bin.end());
-      if (*at > 0) found[i] = end_of(*at);
+  struct Place {
+    std::uint32_t bin;
+    std::int64_t rank;  ///< in its bin, from 0
+  };
+  std::vector<Place> places;
+  places.reserve(ranks.size());
+  ends.fill(kNone);
+  std::uint32_t collected = 0;
+  const auto rank_of = [&](std::size_t i) { return static_cast<std::int64_t>(ranks[i]); };
+  std::int64_t passed = zeros_;  // negative if bucket 0 was counted too often
+  std::size_t zeros = 0;
+  while (zeros < ranks.size() && rank_of(zeros) <= passed) ++zeros;
+  for (std::uint32_t bin = 0; bin < kBins && zeros + places.size() < ranks.size(); passed += counts[bin++]) {
+    for (std::size_t i = zeros + places.size(); i < ranks.size() && rank_of(i) <= passed + counts[bin]; ++i) {
+      if (ends[bin] == kNone) collected += counts[bin];
+      ends[bin] = collected - counts[bin];
+      places.push_back({bin, rank_of(i) - passed - 1});
     }
+  }
+  std::vector<std::uint32_t> in_bins(collected);
+  for (const std::uint32_t bucket : few_) {
+    if (std::uint32_t& end = ends[bucket >> shift]; end != kNone) in_bins[end++] = bucket;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto end = in_bins.begin() + ends[places[i].bin], begin = end - counts[places[i].bin];
+    const auto at = begin + static_cast<std::ptrdiff_t>(places[i].rank);
+    std::nth_element(begin, at, end);
+    if (*at > 0) found[zeros + i] = end_of(*at);
   }
 }
 

@@ -25,12 +25,16 @@ class PositionMaker {
 
   std::array<double, 3> origin() const { return offsets_.origin(); }
 
-  /// Calls put(vertex, {x, y, z}) for the vertices of [first, end) that is_used(vertex).
+  /// Calls put(vertex, {x, y, z}) for the vertices in [first, end) with is_used(vertex).
   template <class IsUsed, class Put>
   void each(std::size_t first, std::size_t end, const IsUsed& is_used, const Put& put) const {
     std::vector<Vertex> vertices;
     std::vector<Point> chunk;
     std::vector<double> x, y, z;
+    const std::size_t most = std::min(end - first, kChunkVertices);
+    vertices.reserve(most);
+    chunk.reserve(most);
+    z.reserve(most);
     for (std::size_t i = first; i < end; ++i) {
       const auto vertex = static_cast<Vertex>(i);
       if (is_used(vertex)) {
@@ -59,6 +63,7 @@ class PositionMaker {
   void find_places(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) const {
     std::vector<Point> chunk;
     std::vector<double> x, y, none;
+    chunk.reserve(end - first);
     for (std::size_t i = first; i < end; ++i) chunk.push_back(tin_.point(static_cast<Vertex>(i)));
     offsets_.map(chunk, x, y, none);
     for (std::vector<double>* offsets : {&x, &y}) round(*offsets);
@@ -96,8 +101,8 @@ double twice_area(std::span<const Vertex> corners, const std::vector<double>& po
   return sum;
 }
 
-/// Makes triangles counter-clockwise if the frame mirrors them; they are positive on the lattice. `positions`: of the
-/// vertices, unused in affine frames.
+/// Makes triangles, which are positive on the lattice, counter-clockwise if the frame mirrors them. `positions`: of the
+/// vertices; unused in affine frames.
 void face_up(const Frame& frame, const std::vector<double>& positions, int threads, std::span<Vertex> corners) {
   const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
   if (frame.is_affine() ? frame.determinant() > 0 : twice_area(corners, positions, up) >= 0) return;

@@ -50,6 +50,7 @@ struct Chord {
 std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::span<const float> heights) {
   const auto is_height = [&](std::size_t i) { return i < heights.size() && !std::isnan(heights[i]); };
   std::vector<std::int32_t> ends, all;
+  all.reserve(given.size() + 2);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (is_height(i) && !(is_height(i - 1) && is_height(i + 1))) ends.push_back(static_cast<std::int32_t>(i));
   }
@@ -86,9 +87,13 @@ Result<LockedBorder> LockedBorder::make(const HeightField& field, const Simplify
 Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const SimplifyOptions& options,
                                const Raster& raster) {
   const Border& asked = options.domain.border;
+  const auto count = static_cast<std::size_t>(edge.count);
   std::vector<float> heights;
   std::vector<std::vector<float>> channels(field.channels.size());
   std::vector<double> bounds;
+  heights.reserve(count);
+  for (std::vector<float>& channel : channels) channel.reserve(count);
+  bounds.reserve(count);
   for (std::int32_t i = 0; i < edge.count; ++i) {
     const Point p = edge.at(i);
     heights.push_back(raster.at(p));
@@ -117,6 +122,7 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
   } else {
     vertices = simplify_edge(fields, options.goals.norm, 0, bounds);
   }
+  vertices_.reserve(vertices_.size() + vertices.size());
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     vertices_.push_back(edge.at(vertices[k]));
     if (k == 0 || !is_segment(heights, vertices[k - 1], vertices[k])) continue;

@@ -12,11 +12,11 @@
 
 namespace scarp {
 
-/// Points mapped at a time.
+/// Number of points mapped at a time.
 inline constexpr std::size_t kChunkVertices = 4096;
 
 /// Offsets of lattice points from the frame's origin, in double. Points are mapped a few thousand at a time, since
-/// double arrays of a whole mesh would be the peak of memory.
+/// double arrays for a whole mesh would determine the peak of memory.
 class OffsetMap {
  public:
   OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame, std::int32_t steps)
@@ -27,10 +27,12 @@ class OffsetMap {
   /// Fills x and y for a chunk of points. Only a frame in space uses `z`, their heights.
   void map(std::span<const Point> points, std::vector<double>& x, std::vector<double>& y,
            std::vector<double>& z) const {
-    x.clear();
-    y.clear();
+    for (std::vector<double>* offsets : {&x, &y}) {
+      offsets->clear();
+      offsets->reserve(points.size());
+    }
     for (Point p : points) {
-      // Differences of indices in affine frames: offsets that are float32 by construction come out exactly.
+      // Affine frames use differences of indices, so that offsets that are float32 by construction are exact.
       const auto& a = frame_.affine;
       const double col = p.x / steps_, row = p.y / steps_, i = col - col0_, j = row - row0_;
       const std::array<double, 2> at =
