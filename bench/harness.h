@@ -29,8 +29,8 @@ auto check(Outcome result) {
   return std::move(*result);
 }
 
-/// A command line, as its usage describes it: `PROGRAM NEEDED... [MORE] [--option VALUE] [--other A B]`. Exits with the
-/// usage if they disagree. An option whose last value ends with "..." has all following words.
+/// A command line, described by its usage: `PROGRAM NEEDED... [MORE] [--option VALUE] [--other A B]`. Exits with the
+/// usage if the command line does not match. An option whose last value ends with "..." gets all following words.
 class Arguments {
  public:
   Arguments(int argc, char** argv, const std::string& usage) {
@@ -91,10 +91,10 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> options_;
 };
 
-/// Times of a stretch of work, over all threads.
+/// Times of some work, summed over all threads.
 struct Times {
   double wall = 0, user = 0, system = 0;  // seconds
-  double page_faults = 0;                 // mapped pages: exact where the kernel only samples system time
+  double page_faults = 0;                 // mapped pages: exact even if the kernel only samples system time
 
   double cpu() const { return user + system; }
   Times& operator+=(const Times& more) {
@@ -152,14 +152,14 @@ inline std::string json_of(const Times& times) {
   return text;
 }
 
-/// The only line of a timed program, JSON. `more`: further members, each preceded by a comma.
+/// Prints the only output line of a timed program, in JSON. `more`: further members, each preceded by a comma.
 inline void print_result(const std::string& version, const Times& times, std::size_t vertices, std::size_t triangles,
                          const std::string& more = "") {
   std::printf("{\"version\": \"%s\", %s, \"vertices\": %zu, \"triangles\": %zu%s}\n", version.c_str(),
               json_of(times).c_str(), vertices, triangles, more.c_str());
 }
 
-/// The project's copy in data/, else one in $SCARP_SHARED/data or, next to the project, in ../shared/data.
+/// The raster's path: in the project's data/, else in $SCARP_SHARED/data, or in ../shared/data next to the project.
 inline std::optional<std::string> find_raster(const std::filesystem::path& project, const std::string& name) {
   const char* variable = std::getenv("SCARP_SHARED");
   const std::filesystem::path shared = variable != nullptr ? std::filesystem::path(variable) : project / "../shared";
@@ -187,8 +187,9 @@ inline void write_file(const std::filesystem::path& path, const std::string& tex
   if (!file) die("cannot write " + path.string(), 4);
 }
 
-/// Replaces the rows of the table at `path` whose first cell is `key` by those of `fresh`, which begins with the
-/// header. Rows are in the order of `keys`; others are dropped. A table with another header counts as empty.
+/// Replaces the rows of the table at `path` with the first cell `key` by the rows of `fresh`, which begins with the
+/// header. Rows are in the order of `keys`; rows without a key in it are dropped. A table with another header counts as
+/// empty.
 inline void keep_rows(const std::filesystem::path& path, const std::string& fresh, const std::string& key,
                       const std::vector<std::string>& keys) {
   std::ifstream file(path);

@@ -1,5 +1,5 @@
 // SCARP_MOST_CPU_SECONDS: a test that uses more CPU time fails, since `make check` runs before every commit and must
-// remain quick. Wall time would blame tests for a busy machine.
+// remain quick. A limit on wall time would also fail tests on a busy machine.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -14,7 +14,7 @@
 namespace scarp::test {
 
 struct DocsTable {
-  std::string head;  ///< start of its first line, also in the page
+  std::string head;  ///< start of the first line, also in the page
   std::string text;
 };
 

@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// The project's folder. Only this object contains a path: all others are independent of it.
+/// The project's folder. Only this object file contains a path, so all others are independent of the folder.
 std::string source_dir();
 
 }  // namespace scarp

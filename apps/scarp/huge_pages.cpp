@@ -1,6 +1,6 @@
-// The program's memory: blocks on huge pages, where the system grants them on request, and a heap that keeps freed
-// memory for the next block. With pages of 4 kB, and a system that zeroes them for each block anew, page faults cost a
-// quarter to a half of a run's time (bench/performance.md).
+// The program's memory: blocks on huge pages, if the system grants them, and a heap that reuses freed memory for the
+// next block. With pages of 4 kB, which the system zeroes anew for each block, page faults cost a quarter to a half of
+// a run's time (bench/performance.md).
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -19,7 +19,7 @@ constexpr std::size_t kLeast = std::size_t{128} << 10;
 constexpr std::size_t kLargestInHeap = std::size_t{32} << 20;  // the C library's limit
 constexpr std::uintptr_t kPage = std::uintptr_t{2} << 20;
 
-/// A refusal costs speed alone. A small block shares its first and last page with other blocks.
+/// A refusal only costs speed. A small block shares its first and last page with other blocks.
 void request_huge_pages(void* block, std::size_t size) {
   if (size < kLeast) return;
   const auto begin = reinterpret_cast<std::uintptr_t>(block), end = begin + size;
@@ -50,7 +50,7 @@ void request_huge_pages(void* block, std::size_t size) {
   }
 }
 
-/// Replaced, too, so that a runtime that replaces every form, such as a sanitizer's, sees one allocator.
+/// Also replaced, so that a runtime that replaces every form, such as a sanitizer's, sees one allocator.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return operator new(size);

@@ -34,7 +34,7 @@ std::string join_command_line(int argc, char** argv) {
   return line;
 }
 
-/// The help of the chosen command, or the program's.
+/// The help of the chosen command, or that of the program.
 std::string help_text(const CLI::App& program, bool all) {
   check_table(program);
   const CommandRow* chosen = nullptr;
@@ -56,7 +56,7 @@ Error end_usage(const std::string& sentence, const std::string& command) {
   return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, command)};
 }
 
-/// CLI11's error as one sentence that ends with a reference.
+/// CLI11's error as one sentence that ends with a reference to the help.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   if (error.get_name() == "ValidationError") return {ErrorKind::kUsage, error.what()};  // from the table's rules
   std::string command, sentence;
@@ -160,8 +160,8 @@ int run_program(int count, char** words) {
   return report_end(kRunners[chosen].run(*options[chosen], command_line));
 }
 
-/// Opens /dev/null read-only in place of standard streams that the caller has closed. Otherwise the next opened file
-/// would get their number and receive messages. Writing to it fails as it should.
+/// Opens /dev/null read-only for each standard stream that the caller has closed. Otherwise the next opened file would
+/// have the stream's number and receive messages. Writing to /dev/null then fails, as it should.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != stream) return;

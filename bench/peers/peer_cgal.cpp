@@ -2,11 +2,11 @@
 //
 //   peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...
 //
-// Writes the mesh for each of the numbers EDGES, descending, once at most that many edges are left. A run that stops
-// there gives the same mesh, since the order of collapses does not depend on the end. Surfaces are in PREFIX.EDGES;
-// each line has the time so far, without that of copies. Z_SCALE: as peer_meshopt's. POLICY: lt (Lindstrom and Turk's
-// cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both with CGAL's filter
-// against normals that turn over.
+// For each of the numbers EDGES, descending, writes the mesh once at most that many edges remain. A run that stops
+// there yields the same mesh, since the order of collapses does not depend on the end. Surfaces are in PREFIX.EDGES;
+// each line has the time so far, without copies. Z_SCALE: as in peer_meshopt. POLICY: lt (Lindstrom and Turk's cost and
+// placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both with CGAL's filter against
+// inverted normals.
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,4 +1,4 @@
-// Judges a mesh with measure(): its true max error, and the parts of the raster left uncovered or covered twice.
+// Judges a mesh with measure(): its true max error, and the uncovered or doubly covered parts of the raster.
 //
 //   peer_judge RASTER COLS ROWS lattice|surface MESH     one JSON line
 //

@@ -3,7 +3,7 @@
 //   peer_vtk RASTER COLS ROWS Z_SCALE MODE PREFIX TRIANGLES...
 //
 // Writes a surface, PREFIX.TRIANGLES, and a line for each number of TRIANGLES. Z_SCALE: as in peer_meshopt. MODE:
-// plain; volume (VolumePreservation); attribute (AttributeErrorMetric, the heights are scalars too).
+// plain; volume (VolumePreservation); attribute (AttributeErrorMetric, with heights also as scalars).
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>

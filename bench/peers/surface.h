@@ -5,7 +5,7 @@
 
 namespace bench {
 
-/// A vertex for each sample, two triangles for each cell, cut along alternating diagonals.
+/// A vertex for each sample, and two triangles for each cell, split along alternating diagonals.
 inline Surface full_grid(const RawRaster& raster) {
   Surface surface;
   for (int row = 0; row < raster.rows; ++row) {

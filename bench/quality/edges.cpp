@@ -1,5 +1,5 @@
-// Triangles at equal max error under each edge rule and batch rule, all in the greedy order so that only the rules
-// differ; rasters up to 2 million samples.
+// Triangles at equal max error under each edge rule and batch rule, all in the greedy order, so that only the rules
+// differ; for rasters of up to 2 million samples.
 
 #include "suite.h"
 

@@ -1,6 +1,6 @@
-// `high` against `normal` at the same max error, and the yielding of its default shape floor: rasters and generated
-// fields × errors → triangles, max errors, RMSE, thin triangles. `hard` is high with --min-shape 0.1, which does not
-// yield, on small rasters. Fails if `high` has more triangles than `normal`.
+// `high` against `normal` at the same max error, and how its default shape floor yields: rasters and generated fields ×
+// errors → triangles, max errors, RMSE, thin triangles. `hard` is high with --min-shape 0.1, which does not yield, on
+// small rasters. Fails if `high` has more triangles than `normal`.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kList[] = "rasters";
 constexpr double kPercentsOfRelief[] = {5, 1};
-constexpr std::uint64_t kMostOfFine = 600'000;  ///< larger rasters: the first error only, without `hard`
+constexpr std::uint64_t kMostOfFine = 600'000;  ///< larger rasters: only the first error, without `hard`
 constexpr int kSide = 384;
 
 /// Height of a sample by column and row.

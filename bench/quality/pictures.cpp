@@ -1,5 +1,5 @@
-// Scenes at the same max error by greedy insertion and each effort, and at the same budget by each objective. Shows the
-// mesh over the relief, within a scene in the same light and scale, as bench/images/effort_*.png.
+// Draws scenes at the same max error by greedy insertion and each effort, and at the same budget by each objective. The
+// pictures bench/images/effort_*.png show the mesh over the relief, with the same light and scale within a scene.
 
 #include "suite.h"
 #include "variants.h"

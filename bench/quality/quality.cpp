@@ -1,9 +1,9 @@
-// Measures meshes and updates the tables bench/quality/SUITE.csv. Without times, they change only with the meshes; mean
-// ratios of CPU times go to times.csv after a run over all rasters.
+// Measures meshes and updates the tables bench/quality/SUITE.csv. The tables contain no times, so they change only with
+// the meshes. A run over all rasters writes mean ratios of CPU times to times.csv.
 //
 //   scarp_quality PROJECT SUITE [NAME...]     all rasters of the suite, or the named ones, whose rows are replaced
 //
-// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is missing, and its rows
+// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is missing and its rows
 // are unchanged; 3: a mesh is faulty.
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The reference rows: Scape's fields, refined to Scape's vertex counts exactly like Scape, judged by measure().
+// The reference rows: Scape's fields, refined exactly like Scape to its vertex counts, judged by measure().
 //
-//   scarp_reference PROJECT TABLE.md     exit 3 if a row misses its tolerance
+//   scarp_reference PROJECT TABLE.md     exit 3 if a row is outside its tolerance
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // The effect of lines along ridges and valleys on meshes with the same max error: triangles, errors at streams and
 // divides, and the preserved share of streams. Streams are the samples through which at least 100 others drain, by
 // steepest descent over the raster filled to its spills (D8; priority flood). Divides are the streams of the inverted
-// raster. Both are independent of how lines are found. A stream is preserved where the mesh, sampled on the raster's
-// grid, has one within a sample. The height of ridges is twice the max error.
+// raster. Streams and divides are independent of how lines are found. A stream is preserved where the mesh, sampled on
+// the raster's grid, has a stream within a sample. The height of ridges is twice the max error.
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ class Rows {
 
   const std::filesystem::path project;
 
-  /// Adds a row without line end, and prints it.
+  /// Adds a row, given without line end, and prints it.
   void add(const std::string& row);
   /// Adds to the mean ratio of a variant's CPU time to greedy insertion's.
   void add_time(std::string_view variant, double ratio);
@@ -37,7 +37,7 @@ class Rows {
 
 struct Suite {
   const char* name;    ///< bench/quality/NAME.csv
-  const char* header;  ///< names of columns, first that of the raster
+  const char* header;  ///< names of columns; the first is the raster's
   std::vector<std::string> (*names)(const std::filesystem::path& project);
   void (*measure)(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows);
   /// Reads a raster by name; null: one of find_raster() or a style of `scarp generate`.
@@ -60,7 +60,7 @@ struct Made {
   double thin_percent = 0;  ///< share of triangles with an angle below 5 degrees, seen from above
 };
 
-/// Exits with 3 if the mesh breaks its max error or budget, leaves a sample uncovered or is not sound.
+/// Exits with 3 if the mesh exceeds its max error or budget, does not cover a sample, or is not sound.
 Made make(const std::string& what, const scarp::OwnedHeightField& field, const scarp::SimplifyOptions& options);
 
 inline double relief_of(const scarp::OwnedHeightField& field) { return field.info.max - field.info.min; }

@@ -1,4 +1,4 @@
-// The variants in the tables of effort: greedy insertion, and ways in which simplify() improves on it.
+// The variants in the effort tables: greedy insertion, and improvements on it by simplify().
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Variant {
   double most_greedy_triangles = std::numeric_limits<double>::infinity();  ///< not run if greedy needs more
 };
 
-/// Others are compared with the first.
+/// Other variants are compared with the first.
 inline constexpr Variant kVariants[] = {
     {"greedy", scarp::Order::kGreedy, scarp::Effort::kFast, "samples"},
     {"fast", scarp::Order::kAuto, scarp::Effort::kFast, "samples"},

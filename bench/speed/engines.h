@@ -36,7 +36,7 @@ inline EngineRun refine_greedily(const RawRaster& raw, double error) {
   return run;
 }
 
-/// The dominant order, or greedy if that engine declines, like simplify(). `side` 0: chosen by the engine.
+/// Refines in the dominant order, or greedily if that engine declines, like simplify(). `side` 0: chosen by the engine.
 inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threads, int side = 0) {
   scarp::TiledOptions options;
   options.threshold = error;

@@ -1,4 +1,4 @@
-// Raw rasters and meshes from files as the library's types.
+// Converts raw rasters and meshes in files to the library's types.
 #pragma once
 
 #include <string>

@@ -2,8 +2,9 @@
 //
 //   speed_las FILE... [--threads N] [--rounds N]
 //
-// A JSON line for each file. Times are those of the round of least CPU time, of N (5). "hash": FNV-1a of all x, y, z as the file's
-// integers, by which las.py and the tests compare the points with those of laz-perf; "ground": points of class 2.
+// A JSON line for each file. Times are of the round with the least CPU time of N (5). "hash": FNV-1a of all x, y, z as
+// the file's integers, by which las.py and the tests compare the points with those of laz-perf; "ground": points of
+// class 2.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Times the arrangement of several kinds of lines, in seconds of one core, and reading them from a file.
+// Times the arrangement of several kinds of lines, in seconds of one core, and reading lines from a file.
 //
 //   speed_lines            a Markdown table, on a raster of 3601 × 3601 samples
 //   speed_lines --meshes PROJECT
@@ -97,7 +97,7 @@ void time_arrangement(const char* name, const scarp::Polylines& lines) {
   std::fflush(stdout);
 }
 
-/// In samples of the raster.
+/// The lines as soft lines, in samples of the raster.
 scarp::LineConstraints soft_lines(const scarp::Polylines& lines, int size) {
   scarp::LineConstraints constraints;
   const double scale = (size - 1.0) / kSize;
@@ -127,7 +127,8 @@ bench::Times time_mesh(const std::string& raster, const scarp::SimplifyOptions& 
   return times;
 }
 
-/// A row of the table for each kind of lines, first without lines; the least of five interleaved runs.
+/// Prints a row of the table for each kind of lines, first without lines, with the least times of five interleaved
+/// runs.
 void time_meshes(const char* terrain, const std::string& raster, std::vector<Kind>& kinds, const char* effort,
                  scarp::SimplifyOptions options) {
   constexpr int kRuns = 5;
@@ -165,7 +166,7 @@ scarp::OwnedHeightField crop(const scarp::OwnedHeightField& whole, int col, int 
   return window;
 }
 
-/// Times one terrain, for bounds with fewer up to several times as many triangles as the lines need.
+/// Times one terrain, for bounds with fewer to several times as many triangles as the lines need.
 void time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
   std::vector<Kind> kinds{{"none", {}},
                           {"1,000 walks", soft_lines(Drawing().walks(1000), field.cols)},
@@ -186,7 +187,7 @@ void time_terrain(const char* terrain, const scarp::OwnedHeightField& field, con
   std::filesystem::remove(raster);
 }
 
-/// 10 million samples each.
+/// Times terrains of 10 million samples each.
 void time_meshes(const std::string& project) {
   constexpr int kSide = 3163;
   std::printf(

@@ -4,13 +4,13 @@
 //   speed_live --readers N [--error E] [--window N] [--updates N]
 //   speed_live [RASTER COLS ROWS] --budget TRIANGLES [--error E] [--window N] [--updates N] [--effort E] [--cells N...]
 //
-// Without a raster: an elevation map of 500 × 500 cells of 5 cm, boxes on a floor with 5 mm of noise, and holes; errors
-// of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's own, with fresh noise of a
-// quarter of the error. CSV: milliseconds of CPU time of an update (mean, 99th percentile, worst), of simplify() on the
-// whole, and triangles of both. With --readers: updates a second (wall clock) at fast effort while N other threads ask
-// for the changes every millisecond, and the slowest. With --budget: an update digs a crater or raises a hill of up to
-// 40 errors; CSV: the least and the largest count of triangles as parts of the budget, updates that moved bounds, and
-// triangles of changed cells an update.
+// Without a raster: an elevation map of 500 × 500 cells of 5 cm, with boxes on a floor with 5 mm of noise, and holes;
+// errors of 2 cm. An update writes a window of N × N samples (50) at a random place: the field's samples with new noise
+// of a quarter of the error. CSV: milliseconds of CPU time of an update (mean, 99th percentile, worst) and of
+// simplify() on the whole field, and the triangles of both. With --readers: updates per second (wall clock) at fast
+// effort while N other threads query changes every millisecond, and the slowest update. With --budget: an update digs a
+// crater or raises a hill of up to 40 errors; CSV: the smallest and largest count of triangles as parts of the budget,
+// updates that moved bounds, and triangles of changed cells per update.
 
 #include <algorithm>
 #include <atomic>
@@ -57,7 +57,7 @@ struct Bench {
   double error;
   int window, updates;
 
-  /// Calls note(times) after each update. `hill`: the largest height, in errors, of what an update raises or digs.
+  /// Calls note(times) after each update. `hill`: the largest height, in errors, that an update raises or digs.
   template <class Note>
   void update(scarp::LiveField& live, double hill, const Note& note) const {
     std::mt19937 random(1);

@@ -1,4 +1,4 @@
-// Peak memory of the engine on a raw raster, from samples in memory to the frozen mesh, samples included, minus the
+// Peak memory of the engine on a raw raster, from samples in memory to the frozen mesh, including samples, minus the
 // process's memory before.
 //
 //   speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]     one JSON line

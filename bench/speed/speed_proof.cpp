@@ -3,9 +3,9 @@
 //   speed_proof RASTER COLS ROWS ERROR [--effort fast|normal|high] [--frame grid|degrees] [--repeat N] [--threads N]
 //
 // degrees: positions are rounded to float32 offsets, as `--crs source` writes GLB. One JSON line. "seconds": measure()
-// without topology (the proof of simplify()); "topology_seconds": its topology. The least CPU time of N calls (5),
-// after a warm-up. The ratio to the seconds of speed_verify for the same raster and error compares the judge with one
-// scan of the triangles.
+// without topology (the proof of simplify()); "topology_seconds": its topology. Both are the least CPU time of N calls
+// (5), after a warm-up. The ratio to the seconds of speed_verify for the same raster and error compares the judge with
+// one scan of the triangles.
 
 #include "field.h"
 #include "scarp/measure.h"

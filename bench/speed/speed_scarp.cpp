@@ -5,9 +5,9 @@
 //                                      [--repeat N]
 //   speed_scarp RASTER COLS ROWS --find SHARE...
 //
-// One JSON line; the environment variable SCARP_KERNEL forces an instruction set. --mesh: for peer_judge. --repeat: no
-// warm-up, but N calls, the first reported as "first", the mean of the others as the result. --find: the errors that
-// keep about SHARE... (ascending) of the samples in the greedy order.
+// One JSON line; the environment variable SCARP_KERNEL forces an instruction set. --mesh: writes a mesh for peer_judge.
+// --repeat: N calls without warm-up; the first is reported as "first", the mean of the others as the result. --find:
+// the errors at which the greedy order keeps about SHARE... (ascending) of the samples.
 
 #include <algorithm>
 #include <limits>
@@ -30,7 +30,7 @@ bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
   return bench::refine_dominantly(raw, options.error, options.threads, options.side);
 }
 
-/// Max error is not monotone in the vertices: prints the smallest one reached up to each share.
+/// Prints the smallest max error reached up to each share, since max error is not monotone in the vertices.
 void print_errors(const bench::RawRaster& raw, const std::vector<std::string>& shares) {
   const scarp::Raster raster = bench::view_of(raw);
   scarp::DomainMesh domain = bench::start_greedy(raster);

@@ -1,11 +1,11 @@
-// Times simplify(), proof included, on small windows of a raw raster, like a maker of tiles: sequentially in one
+// Times simplify(), including proof, on small windows of a raw raster, as in tile production: sequentially in one
 // process, on one thread.
 //
 //   speed_small RASTER COLS ROWS [--side N] [--triangles N] [--error E] [--effort fast|normal|high] [--rounds N]
 //
-// One JSON line. At most 100 windows of N by N samples (64) from all over the raster, for a budget, an error, or both.
-// "milliseconds" are CPU time a window: the least of N rounds (7) for each, then the median and the maximum over
-// windows. "mean_error" is the mean of max errors.
+// One JSON line. Uses at most 100 windows of N by N samples (64), spread over the raster, for a budget, an error, or
+// both. "milliseconds" are CPU time per window: the least of N rounds (7) for each window, then the median and the
+// maximum over windows. "mean_error" is the mean of max errors.
 
 #include <algorithm>
 
@@ -15,9 +15,9 @@
 
 namespace {
 
-/// Evenly spaced over the raster.
+/// Windows evenly spaced over the raster.
 std::vector<bench::RawRaster> cut_windows(const bench::RawRaster& raster, int side) {
-  constexpr int kMost = 10;  // in a row, and rows
+  constexpr int kMost = 10;  // windows per row, and rows
   const int across = std::min(raster.cols / side, kMost), down = std::min(raster.rows / side, kMost);
   if (across < 1 || down < 1) bench::die("the raster is smaller than a window");
   std::vector<bench::RawRaster> windows;

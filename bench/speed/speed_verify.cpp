@@ -1,11 +1,11 @@
 // Times one verification of Scarp's finished mesh by the scan kernels: every triangle is scanned once against the
-// mesh's threshold. No proof needs less work; refinement is measured in multiples of it.
+// mesh's threshold. No proof needs less work, so refinement is measured in multiples of it.
 //
 //   speed_verify RASTER COLS ROWS ERROR [SIDE]     one JSON line
 //
 // Triangles are first sorted by tiles of SIDE samples (256); the buffer of each tile covers all of its triangles.
-// "seconds" are those of the scans, with samples in the cache if they fit; "load_seconds" those of filling the buffers
-// and their blocks. One thread; one pass as warm-up, then a timed one.
+// "seconds": time of the scans, with samples in the cache if they fit; "load_seconds": time to fill the buffers and
+// their blocks. One thread; one pass as warm-up, then a timed pass.
 
 #include <algorithm>
 #include <array>

@@ -18,7 +18,7 @@
 
 namespace {
 
-/// The samples for VTK; row 0 lies at y = 0, as for the others.
+/// The samples for VTK; row 0 lies at y = 0, as for other programs.
 void fill_image(bench::RawRaster& raster, vtkImageData* image) {
   image->SetDimensions(raster.cols, raster.rows, 1);
   vtkNew<vtkFloatArray> heights;

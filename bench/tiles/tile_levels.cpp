@@ -1,11 +1,11 @@
-// Times tiles level by level, made like in `scarp tile`: from nodes of a raster in memory to compressed bytes.
+// Times tiles level by level, made as in `scarp tile`, from nodes of a raster in memory to compressed bytes.
 //
 //   tile_levels RASTER [--te W S E N] [--effort fast|normal|high] [--error M] [--zoom Z] [--levels A B] [--tiles N]
 //               [--rounds N]
 //
-// Prints one line per level, from the block's down: the number of tiles (at most N, 20, of those completely covered by
-// the raster), their triangles and bytes. Then CPU milliseconds a tile (the least of N rounds, 3) to read nodes, make
-// the tile, and encode it. A hash of all bytes shows that a change affects only time.
+// Prints one line per level, from the block's down: the number of tiles (at most N (20) of those completely covered by
+// the raster), their triangles and bytes. Then CPU milliseconds per tile (the least of N rounds (3)) to read nodes,
+// make the tile, and encode it. A hash of all bytes shows that a change affects only time.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace {
 
-/// Tiles of a level that the raster covers completely, else those that it covers in part.
+/// Tiles of a level that the raster covers completely; if there are none, tiles that it covers in part.
 std::vector<scarp::TileId> choose_tiles(const scarp::PyramidPlan& plan, int z, int most) {
   std::vector<scarp::TileId> whole, all;
   const scarp::DegreeBox& covered = plan.covered;

@@ -24,7 +24,7 @@ std::string& last_sentence() {
   return sentence;
 }
 
-/// Names of options in messages that differ from the program's; set before other calls.
+/// Names of options that differ from the program's; set before other calls.
 std::map<cli::OptionId, std::string>& names_here() {
   static std::map<cli::OptionId, std::string> names{{cli::OptionId::kThreads, "threads"}};
   return names;
@@ -34,8 +34,8 @@ bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '_';
 }
 
-/// The option that begins at a dash, "--max-error" or "-e", and the end of its name; null if none does. Letters after
-/// another program's name are that program's option.
+/// The option that begins at a dash, "--max-error" or "-e", and the end of its name; null if there is none. Letters
+/// after another program's name are that program's option.
 const cli::OptionRow* option_at(const std::string& sentence, std::size_t at, std::size_t& end) {
   if (sentence[at] != '-' || (at > 0 && is_of_name(sentence[at - 1]))) return nullptr;
   end = at;

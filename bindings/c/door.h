@@ -15,14 +15,14 @@
 
 namespace scarp::door {
 
-/// Stores the message with options by their names here.
+/// Stores the error's message, with options by their names in the interface.
 scarp_status report(const Error& error);
 scarp_status report(ErrorKind kind, const std::string& sentence);
 /// Replaces "--max-error" and "-e" by "max_error", or the name given to name_option().
 std::string in_words_of_door(const std::string& sentence);
-/// Sets the name of an option for callers and messages. kUsage if there is no such option.
+/// Renames an option for callers and messages. kUsage if there is no such option.
 Result<void> name_option(const std::string& name, const std::string& shown);
-/// "--num-threads" for "threads": an option by its changed name; empty if it has none.
+/// The option with this changed name, "--num-threads" for "threads"; empty if there is none.
 std::string find_named_here(const std::string& name);
 /// Reports the current exception.
 scarp_status report_exception();
@@ -50,7 +50,7 @@ constexpr const char* name_of(const scarp_volumes*) { return "scarp_volumes"; }
 constexpr const char* name_of(const scarp_live_options*) { return "scarp_live_options"; }
 constexpr const char* name_of(const scarp_live_cell*) { return "scarp_live_cell"; }
 
-/// True if a size can be that of a struct, of any version.
+/// True if a struct, of any version, can have this size.
 constexpr bool is_struct_size(std::uint32_t size) {
   constexpr std::uint32_t kLargest = 1 << 16;  // uninitialised values are mostly larger
   return size >= 2 * sizeof(std::uint32_t) && size <= kLargest;
@@ -65,7 +65,7 @@ void check_size(const T* given) {
                                         std::to_string(given->struct_size) + ", and should be sizeof(" + name + ")"}};
 }
 
-/// The caller's part of a struct; the rest has the defaults of init.
+/// A struct of this version with the caller's members; the others have the defaults of init.
 template <class T>
 T known(const T* given, void (*init)(T*, std::uint32_t)) {
   T all;

@@ -59,7 +59,7 @@ std::string find_fault(const scarp_points& points) {
   return "";
 }
 
-/// The same for the bounds of points.
+/// The reason why the bounds of points are invalid; empty if valid.
 std::string find_fault(const float* tolerance, std::uint64_t count) {
   for (std::uint64_t k = 0; k < count; ++k) {
     if (!(tolerance[k] >= 0))
@@ -68,7 +68,7 @@ std::string find_fault(const float* tolerance, std::uint64_t count) {
   return "";
 }
 
-/// Other values on the grid of the field.
+/// A raster of other values on the grid of `raster`.
 LentRaster beside(const LentRaster& raster, const float* values) {
   LentRaster other = raster;
   other.samples = values;
@@ -125,7 +125,7 @@ extern "C" double scarp_round_samples(const double* values, uint64_t count, floa
   double largest = 0;
   for (uint64_t k = 0; k < count; ++k) {
     samples[k] = static_cast<float>(values[k]);
-    const double rounding = std::abs(values[k] - static_cast<double>(samples[k]));  // not a number if one is infinite
+    const double rounding = std::abs(values[k] - static_cast<double>(samples[k]));  // NaN if one is infinite
     if (rounding > largest && rounding <= std::numeric_limits<double>::max()) largest = rounding;
   }
   return largest;

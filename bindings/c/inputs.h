@@ -9,7 +9,7 @@
 
 namespace scarp::door {
 
-/// Lends a field and the arrays of the options, by their names.
+/// Lends a field and the arrays of the options, under their names.
 class LentInputs {
  public:
   LentInputs(const scarp_field* field, const scarp_options& asked);

@@ -74,7 +74,7 @@ scarp_status scarp_live_create(const scarp_field* given, const scarp_live_option
     if (!settings) return report(settings.error());
     const LentInputs inputs(given, known<scarp_options>(nullptr, scarp_options_init));
     if (auto checked = inputs.check(); !checked) return report(checked.error());
-    // Values may all be missing: a map without any height yet is no error.
+    // Values may all be missing: a map may have no height yet.
     const auto field =
         scarp::read_height_field(inputs.name(), {.default_frame = scarp::DefaultFrame::kMetric, .as_values = true});
     if (!field) return report(field.error());
@@ -157,7 +157,7 @@ scarp_status scarp_live_mesh(const scarp_live* live, scarp_mesh** out) {
     const scarp::Frame& frame = live->made_in;
     auto mesh = std::make_unique<scarp_mesh>();
     mesh->mesh = live->field.mesh();
-    // A field that moved is judged where it lies now, by its geotransform.
+    // A field that moved is judged at its current place, by its geotransform.
     const bool has_moved = live->field.frame().affine != frame.affine;
     const bool is_local = frame.kind == scarp::Frame::Kind::kLocal;
     const char* crs = has_moved                                 ? "source"

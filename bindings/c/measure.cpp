@@ -28,7 +28,7 @@ scarp_status finish(const Measurement& measured, std::uint64_t over, double seco
   return broken ? report(ErrorKind::kPromise, *broken) : SCARP_OK;
 }
 
-/// A file contains points or a raster.
+/// `are_points`: nothing for a file, which contains points or a raster.
 scarp_status judge(const std::string& input, std::optional<bool> are_points, const Mesh& mesh,
                    const scarp_options& asked, scarp_report* out) {
   const Lent lent(kMeshName, mesh);

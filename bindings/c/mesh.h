@@ -21,7 +21,7 @@ struct scarp_bytes {
 struct scarp_mesh {
   scarp::Mesh mesh;  ///< z up
   std::optional<scarp_report> report;
-  scarp::cli::OutputFormat format;  ///< format it was made for
+  scarp::cli::OutputFormat format;  ///< format that the mesh was made for
   scarp::cli::Given up;
   std::string crs;  ///< requested CRS
   bool is_print = false, doubles = false;

@@ -1,4 +1,4 @@
-// A mesh as bytes for another process of the caller: everything in a scarp_mesh, by one list of its members.
+// A mesh as bytes for another process of the caller: all data of a scarp_mesh, by one list of its members.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -123,7 +123,7 @@ void visit_members(Archive& archive, Packed& mesh) {
   archive(mesh.warnings);
 }
 
-/// Bytes of another version may contain other members.
+/// The mark of a version: bytes of another version may contain other members.
 std::string mark() { return std::string("Scarp's mesh, version ") + version(); }
 
 bool has_lost_corner(const Mesh& mesh) {

@@ -13,7 +13,7 @@
 #include "session/text/clock.h"
 
 struct scarp_refiner {
-  scarp::OwnedHeightField field;  ///< the samples are the caller's unless they had to be cleaned
+  scarp::OwnedHeightField field;  ///< borrows the caller's samples unless they had to be cleaned
   scarp::Refiner refiner;
 };
 
@@ -23,7 +23,7 @@ namespace {
 constexpr int kStepsUnwatched = 64;
 constexpr double kMinInterval = 0.1;  // seconds
 
-/// Share of the work, which grows with the vertices, whose number grows as 1 / error².
+/// The fraction of the work that is done. Work grows with the number of vertices, which grows as 1 / error².
 double share_of(const Refiner& steps, double first_error, double max_error, std::uint64_t first,
                 std::uint64_t max_vertices) {
   const double now = steps.max_error();

@@ -150,7 +150,7 @@ typedef struct scarp_live_options {
 /* The mesh of a cell; the pointers are valid as long as the scarp_changes. */
 typedef struct scarp_live_cell {
   uint32_t struct_size;
-  uint32_t slot;                /* its place in a renderer's buffer, which at most one cell has */
+  uint32_t slot;                /* its place in a renderer's buffer; no other cell has it */
   uint64_t version;             /* the change that made it */
   int32_t col, row;             /* its first sample, on the lattice of cells */
   uint32_t vertices, triangles; /* 0 triangles: the cell has no surface */
@@ -192,7 +192,7 @@ void scarp_options_clear(scarp_options* options);
 /* Simplifies a field in memory, like `scarp simplify` for a raster with these samples. Float32 samples are not copied,
  * unless scarp_field::nodata requires it. */
 scarp_status scarp_simplify(const scarp_field* field, const scarp_options* options, scarp_mesh** out);
-/* The same for a file of a raster or points, with all its metadata, exactly as the program does. */
+/* Simplifies a file of a raster or points, with all its metadata, exactly like the program. */
 scarp_status scarp_simplify_file(const char* path, const scarp_options* options, scarp_mesh** out);
 scarp_status scarp_simplify_points(const scarp_points* points, const scarp_options* options, scarp_mesh** out);
 
@@ -206,8 +206,8 @@ scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const 
 scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* mesh, const scarp_options* options,
                                   scarp_report* out);
 
-/* The volumes between two surfaces, as `scarp measure --volume`: above the area that both cover, in the units of x, y
- * and z of the first. */
+/* The volumes between two surfaces, like `scarp measure --volume`: over the area that both cover, in the units of x, y
+ * and z of the first surface. */
 typedef struct scarp_volumes {
   uint32_t struct_size;
   int32_t reserved;
@@ -220,9 +220,9 @@ typedef struct scarp_volumes {
   double to_outside;   /* area of the second that the first does not cover; 0 for a level */
 } scarp_volumes;
 
-/* From one mesh to another, in the frames that their metadata name, or to a level. Only the options threads and
- * progress are used. SCARP_INPUT for meshes without a common area, and for a solid, a triangle that stands upright or
- * faces down, and triangles that overlap. */
+/* Measures from one mesh to another, in the frames that their metadata name, or to a level. Uses only the options
+ * threads and progress. SCARP_INPUT for meshes without a common area, and for a solid, a triangle that stands upright
+ * or faces down, and triangles that overlap. */
 scarp_status scarp_measure_volume(const scarp_mesh* from, const scarp_mesh* to, const scarp_options* options,
                                   scarp_volumes* out);
 scarp_status scarp_measure_volume_to_level(const scarp_mesh* from, double level, const scarp_options* options,
@@ -279,9 +279,9 @@ scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out);
 void scarp_refiner_free(scarp_refiner* refiner);
 
 /* A field that changes many times a second: an update remakes only the cells that it touches. The field is copied. One
- * thread at a time may change it; a second one gets an error. Meanwhile, other threads may call scarp_live_changes(),
- * _mesh() and the counts. A failed call changes nothing. The mesh has the same bytes as that of a field made from the
- * final samples at the same col and row. With max_triangles it also depends on earlier changes. */
+ * thread at a time may change it; a second thread gets an error. Meanwhile, other threads may call
+ * scarp_live_changes(), _mesh() and the counts. A failed call changes nothing. The mesh has the same bytes as that of a
+ * field made from the final samples at the same col and row. With max_triangles it also depends on earlier changes. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
 /* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: cols * rows
@@ -297,7 +297,7 @@ uint64_t scarp_changes_version(const scarp_changes* changes); /* for the next ca
 uint64_t scarp_changes_count(const scarp_changes* changes);
 /* Fills `out`, whose struct_size the caller sets. */
 scarp_status scarp_changes_cell(const scarp_changes* changes, uint64_t index, scarp_live_cell* out);
-/* Makes a scarp_changes of one cell, whose memory remains when `changes` is freed. */
+/* Makes a scarp_changes of one cell, which remains valid when `changes` is freed. */
 scarp_status scarp_changes_cut(const scarp_changes* changes, uint64_t index, scarp_changes** out);
 void scarp_changes_free(scarp_changes* changes);
 /* The whole field as one mesh, in coordinates that do not change when the field moves. */
@@ -324,7 +324,7 @@ void scarp_raster_free(scarp_raster* raster);
  * report of the set, as JSON. Needs GDAL. */
 scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
                         scarp_bytes** out);
-/* The same from files: at each position, the first file with a height is used. */
+/* Makes the tiles of files: at each position, the first file with a height is used. */
 scarp_status scarp_tile_files(const char* const* paths, uint64_t count, const scarp_options* options,
                               const char* output, int32_t overwrite, scarp_bytes** out);
 /* Quantized-mesh tiles on request, by the options of `scarp tile` ("zoom", "vertical", "effort" ...). Needs GDAL. */

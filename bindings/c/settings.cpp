@@ -21,7 +21,7 @@ using cli::OptionType;
 
 constexpr Commands kDoorCommands = cli::kClassic | cli::kMeasure | cli::kTile;
 
-/// True for options that only a program needs: its terminal, its files, several meshes.
+/// True for options that only a program needs: for its terminal, its files, or several meshes.
 bool is_of_program(const OptionRow& row) {
   constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,     OptionId::kTiming,
                                      OptionId::kJson,      OptionId::kPoints,    OptionId::kJsonProgress,

@@ -20,15 +20,15 @@ namespace scarp::door {
 /// The name in the program's table for "max_error", "max-error" or "--max-error".
 std::string name_in_program(const std::string& name);
 
-/// True if the call has the option.
+/// True if the call sets the option.
 bool has_setting(const scarp_options& asked, const char* name);
 
-/// The command-line words: `arguments` (the command's name, inputs and outputs), then options: those `beside` the
-/// caller's, struct members not overridden by name, then options by name. kUsage, in one sentence.
+/// The command-line words: `arguments` (the command's name, inputs and outputs), then options: those in `beside`,
+/// struct members not overridden by name, and options by name. Fails with kUsage, in one sentence.
 Result<std::vector<std::string>> words_of(cli::Commands command, const std::vector<std::string>& arguments,
                                           const scarp_options& asked, const std::vector<std::string>& beside = {});
 
-/// Parses the words with `program`, to which the command was added. kUsage, in one sentence.
+/// Parses the words with `program`, to which the command was added. Fails with kUsage, in one sentence.
 Result<void> parse_words(CLI::App& program, std::vector<std::string> words);
 
 /// Calls words_of() and parse_words().

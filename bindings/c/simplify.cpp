@@ -28,13 +28,13 @@
 namespace scarp::door {
 namespace {
 
-enum class InputKind { kField, kPoints, kFile };  // a file contains either
+enum class InputKind { kField, kPoints, kFile };  // a file contains either data
 
 /// The request of a call.
 struct Request {
   std::vector<std::string> words;
   cli::GivenOptions given{cli::kSimplify};
-  std::optional<cli::SimplifyPlan> plan;  ///< request for a raster; no output file can be an input
+  std::optional<cli::SimplifyPlan> plan;  ///< plan for a raster; no output file can be an input
 };
 
 Result<void> check_goal(const cli::GivenOptions& given) {
@@ -45,8 +45,8 @@ Result<void> check_goal(const cli::GivenOptions& given) {
               "max_points");
 }
 
-/// The command's options as in a run of the program, and the last requests about fields. Cached per thread: making them
-/// anew is slower than simplifying a small field.
+/// The command's options as in a run of the program, and the last requests about fields. Cached per thread, because
+/// making them anew is slower than simplifying a small field.
 class SimplifyWords {
  public:
   SimplifyWords() { given_.add_to(program_); }
@@ -84,7 +84,7 @@ SimplifyWords& words_of_thread() {
   return words;
 }
 
-/// Without a purpose of the mesh, the frame is the raster's own coordinates, in which arrays are compared.
+/// Without an output format, the frame is the raster's own coordinates, in which arrays are compared.
 void choose_frame(const scarp_options& asked, ReadOptions& read) {
   if (has_setting(asked, "--of")) return;
   read.default_frame = DefaultFrame::kMetric;

@@ -33,7 +33,7 @@ func set(options *C.scarp_options, name, value string) C.scarp_status {
 }
 
 func main() {
-	// In C's memory: Go's may hold no pointers to Go's that C keeps.
+	// In C's memory: Go memory that C keeps may hold no Go pointers.
 	heights := (*[cols * rows]C.float)(C.malloc(cols * rows * 4))
 	defer C.free(unsafe.Pointer(heights))
 	for row := 0; row < rows; row++ {

@@ -1,5 +1,5 @@
-// A rolling elevation map as a robot keeps it: 20 times a second a simulated range sensor measures a sector in front of
-// it, the map follows the robot, and the mesh follows the map.
+// The rolling elevation map of a robot: 20 times a second, a simulated range sensor measures a sector in front of the
+// robot, the map follows the robot, and the mesh follows the map.
 //
 //   rolling_map [SECONDS] [MESH]      10 s by default; MESH: the last mesh as GLB, OBJ, PLY ...
 #include <scarp/scarp.h>
@@ -15,23 +15,23 @@
 
 namespace {
 
-constexpr double kCell = 0.05, kSpeed = 1.0, kRate = 20;  // metres, metres and scans a second
+constexpr double kCell = 0.05, kSpeed = 1.0, kRate = 20;  // metres, metres and scans per second
 constexpr int kSide = 200;                                // cells of the map: 10 m
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// The ground: hills, and steps as of a kerb every 4 m.
+/// The ground: hills, and a step like a kerb every 4 m.
 double ground(double x, double y) {
   return 0.3 * std::sin(0.5 * x) * std::cos(0.4 * y) + (std::fmod(x + 400, 4.0) < 2 ? 0.15 : 0.0);
 }
 
-/// A window of the map, as measured; cells that the sensor did not reach are unknown.
+/// A measured window of the map; cells that the sensor did not reach are unknown.
 struct Scan {
   scarp::LiveWindow window;
   std::vector<float> heights;
 };
 
-/// Cells up to 3 m ahead, within 35 degrees of the way, with 3 mm of noise. The robot is in the middle of the map and
-/// walks east; `east` cells behind it is where it began.
+/// Measures cells up to 3 m ahead, within 35 degrees of the direction of travel, with 3 mm of noise. The robot is in
+/// the middle of the map and walks east; it is `east` cells from its start.
 Scan measure(int east, const std::vector<float>& map, std::mt19937& random) {
   constexpr int kReach = 60, kMiddle = kSide / 2;
   Scan scan{{kMiddle, kMiddle - kReach * 7 / 10, kReach, kReach * 7 / 5}, {}};
@@ -47,7 +47,7 @@ Scan measure(int east, const std::vector<float>& map, std::mt19937& random) {
   return scan;
 }
 
-/// Runs until stopped; the simulated sensor does not count.
+/// Measures time until stopped, without the simulated sensor.
 class Clock {
  public:
   void start() { start_ = std::chrono::steady_clock::now(); }

@@ -2,7 +2,7 @@
 // points, and the cutline.
 //
 // Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. With a
-// budget, each run of the search for the max error rebuilds the lines.
+// budget, each run of the search for the max error rebuilds these lines.
 //
 // Example:
 //     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
@@ -35,45 +35,44 @@ struct Lake {
   std::string name;
   double level = 0;           ///< its elevation
   std::uint64_t samples = 0;  ///< samples set to the level
-  std::uint64_t raised = 0;   ///< samples around it raised above the level
+  std::uint64_t raised = 0;   ///< surrounding samples raised above the level
   double largest_change = 0;  ///< largest change of a sample
-  std::uint64_t bytes = 0;    ///< bytes that the field uses for the lake, if its samples are not one array in memory
-  std::vector<Line> shore;    ///< its rings, at the level: breaklines for Features::breaklines
+  std::uint64_t bytes = 0;    ///< bytes that a field with a source uses for the lake
+  std::vector<Line> shore;    ///< rings of the lake at its level, for Features::breaklines
 };
 
-/// Options of flatten_lakes() and find_lakes().
 struct WaterOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of the lines: map_affine()
-  /// The level is this percentile of the heights along the shore, 0 … 100. Most of a shore is too high, because most of
-  /// its cells hold more land than water.
+  /// The level is this percentile of the heights along the shore, 0 … 100. Most heights along a shore are too high,
+  /// because most cells there contain more land than water.
   double percentile = 5;
-  /// Samples around a lake are raised to at least this height above its level, in z units, above 0.
+  /// Samples around a lake are raised to at least this height above its level. In z units, above 0.
   double freeboard = 0.01;
   /// The memory limit of the process in bytes (0: none), and the bytes already in use, as in SimplifyOptions::run. The
   /// call fails with kUsage if the lakes do not fit. DEFAULT: no limit.
   Run run = {};  ///< memory, and progress of the pass "water"
 };
 
-/// Flattens each polygon of `lines`: sets all valid samples in it (by the even-odd rule for its rings) to the level, a
-/// percentile of the heights of its shore. The shore is the raster's surface along all its rings, at two points a
-/// sample. Then each sample outside of lakes that has a sample of the lake among its eight neighbours is raised to at
-/// least level + freeboard, so that the water has a rim. Lakes are processed in the order of `lines`; a sample in two
-/// lakes belongs to the later one. Levels are computed from the original field. Lines, and polygons without a valid
-/// sample on their shore, are omitted.
+/// Flattens each polygon of `lines`: sets all valid samples in the polygon (by the even-odd rule for its rings) to one
+/// level. The level is a percentile of the heights of the raster's surface along all rings, at two points a sample.
+/// Then all samples around the lake (eight neighbours, outside of all lakes) are raised to at least level + freeboard,
+/// so that the water has a rim. Lakes are processed in the order of `lines`; a sample in two lakes belongs to the later
+/// one. Levels are computed from the original field. Lines other than rings, and polygons without a valid sample on
+/// their shore, are omitted.
 ///
-/// If the field has a source, it is replaced by one with the flattened samples. The new source uses Lake::bytes of
-/// memory, in proportion to the shores, not to the areas of the lakes.
+/// If the field has a source, a source with the flattened samples replaces it. The memory of the new source
+/// (Lake::bytes) grows with the shores, not with the areas of the lakes.
 ///
-/// With the shores as breaklines and vertices on samples, a mesh is level within each lake. REQUIRES: the affine map
-/// can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does. For a
-/// field with a source, also fails with kInput for shores with coordinates that are too large. Memory: as breaklines.
-/// Cost: O(samples in and around the lakes, and n log n for shores along n samples). From a source, the rows of shores
-/// are read first, then the rows of lakes, once.
+/// If the shores are breaklines and all vertices are samples, a mesh is level within each lake. REQUIRES: the affine
+/// map can be inverted. Fails with kUsage for options out of range, with kCancelled, and as the field's source does.
+/// For a field with a source, also fails with kInput for shores with coordinates that are too large. Memory: that of
+/// the shores as breaklines. Cost: O(samples in and around the lakes, and n log n for shores along n samples). From a
+/// source, the rows of shores are read first, then the rows of lakes.
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options);
 
-/// Returns the lakes of flatten_lakes(), with levels and shores; the field does not change. Options and failures are
-/// the same, but no memory for samples is used. Cost: from a source, only the rows of shores are read.
+/// Returns the lakes of flatten_lakes() with levels and shores, without changing the field. Options and failures are
+/// the same, but samples need no memory. Cost: from a source, only the rows of shores are read.
 Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const Line> lines,
                                      const WaterOptions& options);
 
@@ -84,12 +83,12 @@ struct FlatOptions {
   Run run = {};  ///< memory, and progress of the pass "flats"
 };
 
-/// Finds the flat areas of the raster: at least min_samples 4-connected samples of one height. The field does not
-/// change. Shores run from sample to sample, around the cells and half cells whose corners belong to the area. With the
-/// shores as breaklines and vertices on samples, a mesh is level within each area. Areas are ordered by their first
-/// samples. An area that is nowhere two samples wide is omitted. Fails with kUsage for fewer than 3 samples, with
-/// kCancelled, and as the field's source does. Memory: 24 bytes for each horizontal run of equal samples in unfinished
-/// areas. Cost: O(samples); a source's rows are read once, from the top down.
+/// Finds the flat areas of the raster, each of at least min_samples 4-connected samples of one height. The field does
+/// not change. Shores run from sample to sample, around the cells and half cells whose corners all belong to the area.
+/// If the shores are breaklines and all vertices are samples, a mesh is level within each area. Areas are ordered by
+/// their first samples. An area that is nowhere two samples wide is omitted. Fails with kUsage for a min_samples below
+/// 3, with kCancelled, and as the field's source does. Memory: 24 bytes for each horizontal run of equal samples in
+/// unfinished areas. Cost: O(samples); a source's rows are read once, from the top down.
 Result<std::vector<Lake>> find_flats(const OwnedHeightField& field, const FlatOptions& options);
 
 // Running water: lines that never rise downstream.
@@ -98,44 +97,44 @@ struct River {
   std::string name;
   double source = 0, mouth = 0;  ///< heights of its ends, or of its first and last points in the raster
   double deepest_cut = 0;        ///< its largest depth below the raster
-  bool is_turned = false;        ///< it flows against the order of its points as given
+  bool is_turned = false;        ///< it flows against the given order of its points
   Line course;                   ///< with heights, for Features::breaklines; yields to shores
 };
 
 struct RiverOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of the lines: map_affine()
-  /// Max height difference between a course and the exact one, in z units, at least 0. DEFAULT: 0, two vertices a
+  /// Max height difference between a course and the exact course, in z units, at least 0. DEFAULT: 0, two vertices a
   /// sample.
   double tolerance = 0;
 };
 
-/// Gives each line of `lines` heights that never rise downstream. Each line flows from the end where the raster is
-/// higher to the other end. The height of a point is the lowest height of the raster's surface there and upstream.
-/// Rivers that share a vertex have the lowest of their heights there, so that a confluence has no step. In `lakes`, and
-/// less than a sample from them, rivers have the lake's level, even if they rise to it. `lakes`: from flatten_lakes()
-/// or find_flats() for this field.
+/// For each line of `lines`, computes heights that never rise downstream. A river flows from the end where the raster
+/// is higher to the other end. The height of a point is the lowest height of the raster's surface at the point and
+/// upstream. At a shared vertex, all rivers have the lowest of their heights, so that a confluence has no step. In a
+/// lake, and less than a sample from it, a river has the lake's level, even if it rises there. `lakes`: from
+/// flatten_lakes() or find_flats() for this field.
 ///
-/// Parts outside the raster and in nodata have no heights. Rings, and lines without any height, are omitted. The raster
-/// does not change: in the mesh, hard breaklines below it become gorges one sample wide. Heights are float32. Fails
-/// with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map can be inverted.
-/// Cost: O(n log n) for lines and shores along n samples.
+/// Parts of lines outside the raster or in nodata have no heights. Rings, and lines without any height, are omitted.
+/// The raster does not change: hard breaklines below the raster become gorges in the mesh, one sample wide. Heights are
+/// float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map can be
+/// inverted. Cost: O(n log n) for lines and shores along n samples.
 Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options);
 
-// Cliffs: walls of buildings and quarries, where a raster steps between two samples.
+// Cliffs: walls of buildings and quarries, where the height jumps between two samples.
 //
-// The raster does not define the position of a step between two samples. A wall at an angle to the grid becomes a
-// staircase, and a mesh on samples follows each stair. But a straight line fits between the samples of all the stairs.
-// With two such lines, close together along the wall's top and foot, the surface on either side stays smooth. So a
-// straight piece of wall costs two triangles.
+// The raster does not define the exact position of a jump. A wall at an angle to the grid becomes a staircase, and a
+// mesh on samples follows each stair. But a straight line fits between the samples of all the stairs. With two such
+// lines, close together along the wall's top and foot, the surface on both sides remains smooth. So a straight piece of
+// wall costs two triangles.
 
 struct CliffOptions {
-  /// Neighbouring samples in a row or a column that differ by more than this form a cliff. In z units, above 0 and
-  /// finite. Values below twice the max error are of little use.
+  /// Neighbouring samples in a row or a column that differ by more than this height form a cliff. In z units, above 0
+  /// and finite. Values below twice the max error are of little use.
   double height = 0;
   /// Max error of the future mesh, at least 0 and finite. Samples along a line differ in height from the line by at
-  /// most 0.9 of this. Refinement ensures the error bound in any case, but lines farther from the samples are of little
-  /// use.
+  /// most 0.9 of this error. Refinement ensures the error bound in any case, but lines with larger differences are of
+  /// little use.
   double max_error = 0;
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< lines that no wall may cross or touch
@@ -145,11 +144,11 @@ struct CliffOptions {
 };
 
 struct Cliffs {
-  /// Two for each wall: the line along its top, then the line along its foot. All have heights, and vertices on the
-  /// lattice of 1/256 sample. Their kind is kWall.
+  /// Two lines for each wall: the line along its top, then the line along its foot. All lines have heights, and
+  /// vertices on a lattice of 1/256 sample. Their kind is kWall.
   std::vector<Line> lines;
   std::uint64_t wall_count = 0;
-  std::uint64_t vertices = 0;  ///< number of distinct vertices of the lines
+  std::uint64_t vertices = 0;  ///< distinct vertices of the lines
 };
 
 /// Finds the walls of a raster, and makes two lines for each part of a wall that is worth its vertices. All samples on
@@ -157,26 +156,26 @@ struct Cliffs {
 /// side to the right. No sample lies on or between the lines, so walls change neither samples nor guarantees. Nodata
 /// samples form no cliffs. Two walls never share a point.
 ///
-/// Among all lines through a wall, those with the fewest vertices are chosen. Their vertices lie on cracks (the steps
+/// Among all lines through a wall, those with the fewest vertices are chosen. Their vertices lie on cracks (jumps
 /// between two samples), or in cells where the wall turns. A part is worth its vertices if it needs fewer than three
 /// pairs of vertices for ten cracks. Fails with kUsage for options out of range, and as the field's source does. A
 /// source is read once from the top down; the lines are the same as for samples in memory. REQUIRES: the affine map can
-/// be inverted. Memory: 40 bytes a crack, 1000 a crack of the longest wall, and the lines. Cost: O(samples), and some
-/// 20 µs a crack; one thread.
+/// be inverted. Memory: 40 bytes a crack, 1000 bytes a crack of the longest wall, and the lines. Cost: O(samples), and
+/// some 20 µs a crack, on one thread.
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options);
 
 // Ridges and valleys: the lines along which the raster's surface bends most.
 //
 // A mesh of few triangles lowers all crests and fills all valley beds, by up to its max error. Water then follows the
-// triangles instead of the terrain. Lines along crests and beds preserve them as edges of the mesh.
+// triangles instead of the terrain. Lines along crests and beds become edges of the mesh.
 //
 // Profiles identify ridges (profile recognition: Chang, Song & Hsu, Computers & Geosciences 24:1, 1998; the highest and
 // lowest samples of profiles: Peucker & Douglas, Computer Graphics and Image Processing 4:4, 1975). Four profiles pass
-// through a sample: along its row, its column and both diagonals. At least two of them must fall by the given height on
-// both sides before they rise above the sample. This excludes lower noise, and the flank of a cone, which bends along
-// one profile only. Half the height is enough for samples that continue a ridge of full height. A maximum spanning tree
-// links connected samples along the highest paths; its long branches are the ridges. Valleys are the ridges of the
-// negated raster.
+// through a sample: along its row, its column and both diagonals. At least two profiles of a ridge sample must fall by
+// the given height on both sides before they rise above the sample. This rule excludes lower noise, and flanks of
+// cones, which bend along one profile only. Half the height is enough for samples that continue a ridge of full height.
+// A maximum spanning tree links connected samples along the highest paths; its long branches are the ridges. Valleys
+// are the ridges of the negated raster.
 
 struct RidgeOptions {
   /// The least height of a ridge above the terrain within 16 samples on both sides. In z units, above 0 and finite.
@@ -187,7 +186,7 @@ struct RidgeOptions {
   double max_error = 0;
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< map from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< no ridge is searched for near these lines
-  bool are_kept = false;                           ///< the final mesh holds all lines at every effort
+  bool are_kept = false;                           ///< the final mesh contains all lines, at every effort
   /// For a field with a source: the memory limit of the process, and the bytes in use, as in SimplifyOptions. The call
   /// fails with kMemory if the ridges do not fit. DEFAULT: no limit.
   Run run = {};
@@ -196,17 +195,17 @@ struct RidgeOptions {
 struct Ridges {
   /// Soft lines for Features::breaklines, with vertices on samples, of kind kRidge or kKeptRidge.
   std::vector<Line> ridges, valleys;
-  std::uint64_t vertices = 0;  ///< number of vertices of the lines; a shared vertex counts once for each line
+  std::uint64_t vertices = 0;  ///< vertices of the lines; a shared vertex counts once for each line
 };
 
-/// Finds the ridges and valleys of a raster, in an order that depends on the raster only. Each line runs within a
+/// Finds the ridges and valleys of a raster, in an order that depends on the raster only. Each line runs within one
 /// sample of the crest or bed samples that it represents, with as few vertices as this distance and the bound allow.
 /// Where one line joins another, both have a vertex. Lines of fewer than 8 samples are omitted. Negating all samples
-/// only exchanges ridges and valleys. A profile ends at nodata.
+/// exchanges ridges and valleys. A profile ends at nodata.
 ///
 /// Fails with kUsage for options out of range, with kCancelled, and as the field's source does. A source is read four
 /// times from the top down; the lines are the same as for samples in memory. REQUIRES: the affine map can be inverted.
-/// Memory: some 50 bytes for each sample near a high or low one and, without a source, 6 bytes a sample. Cost:
+/// Memory: some 50 bytes for each sample near a possible ridge or valley and, without a source, 6 bytes a sample. Cost:
 /// O(samples), and O(n log n) for the n samples near lines; some 0.1 to 0.3 s per million samples of terrain, up to 1 s
 /// for noise.
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options);
@@ -224,14 +223,14 @@ struct RidgeGoals {
 
 /// The features of a mesh. simplify() fits them to the max error of the mesh by fit_features(). Features need a max
 /// error, tolerances or a budget. With a budget, simplify() searches for an error at every effort, and fits the
-/// features to the error of each run. It fails with kUsage for a budget too small for lines and outline.
+/// features to the error of each run. It fails with kUsage if the budget is too small for lines and outline.
 struct Features {
-  /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line has its own
-  /// heights, a soft one follows the raster. Where a hard line passes through a sample of another height, the sample is
-  /// set to the line's height, and the guarantees hold for the changed samples (Simplified::edits). simplify() fails
-  /// with kInput if the heights of lines conflict, and names the lines. DEFAULT: none.
+  /// Lines that do not depend on the error. Their affine map applies to all features. A hard line has its own heights;
+  /// a soft line follows the raster. Where a hard line passes through a sample of another height, the sample is set to
+  /// the line's height, and the guarantees hold for the changed samples (Simplified::edits). simplify() fails with
+  /// kInput if the heights of lines conflict, and names the lines. DEFAULT: none.
   LineConstraints breaklines = {};
-  /// Lakes of flatten_lakes() or find_flats() for the field: their shores become lines, and rivers flow into them.
+  /// Lakes of flatten_lakes() or find_flats() for the field: their shores become lines, and rivers flow into the lakes.
   std::vector<Lake> lakes = {};
   std::vector<Line> rivers = {};                    ///< courses in x and y, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
@@ -239,9 +238,9 @@ struct Features {
   /// Samples that become vertices before the first scan, in this order, and are never removed. Samples outside of the
   /// valid data are skipped. DEFAULT: none.
   std::vector<SampleAt> points = {};
-  /// The surface, which is the domain of guarantee (2), is cut to these polygons. Their rings become edges of the mesh,
-  /// moved by at most 1/512 sample (3/512 where lines cross). Between samples, the edges follow the raster's heights to
-  /// within half of max_error; less than a sample from their vertices, to within max_error. Samples outside are not
+  /// The surface (the domain of guarantee (2) of simplify()) is cut to these polygons. Their rings become edges of the
+  /// mesh, moved by at most 1/512 sample (3/512 where lines cross). Between samples, edges follow the raster's heights
+  /// to within half of max_error; less than a sample from a vertex, to within max_error. Samples outside are not
   /// judged. simplify() fails with kInput if no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
 
@@ -249,7 +248,7 @@ struct Features {
   bool have_lines() const { return !breaklines.lines.empty() || !lakes.empty() || depend_on_error(); }
   /// True if some lines depend on the max error of the mesh.
   bool depend_on_error() const { return !rivers.empty() || walls || ridges; }
-  /// The lines independent of the error: breaklines, then shores.
+  /// Lines that do not depend on the error: breaklines, then shores.
   LineConstraints fixed_lines() const;
 };
 
@@ -258,24 +257,24 @@ struct FeatureFitOptions {
   Run run = {};          ///< progress of the pass "ridges"
 };
 
-/// The lines of a mesh for one max error, and the features that they come from.
+/// The lines of a mesh for one max error, and their features.
 struct FittedFeatures {
   LineConstraints lines;         ///< breaklines, shores, rivers, walls, ridges, valleys
   std::vector<River> rivers;     ///< rings, and lines without a height anywhere, are omitted
   std::optional<Cliffs> walls;   ///< nothing without goals for them
   std::optional<Ridges> ridges;  ///< nothing without goals for them
 
-  /// Number of lines except those of walls and ridges.
+  /// Number of lines, without walls and ridges.
   std::uint64_t given_lines() const;
 };
 
-/// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact ones by at most half of the
-/// error. Walls avoid all these lines, and ridges also avoid the walls. The same features, field and error give the
-/// same lines. simplify() calls this function for each mesh that it builds; Simplified::features and lines_for contain
-/// the last result.
+/// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact courses by at most half of
+/// the error. Walls avoid all lines except ridges; ridges avoid all other lines. The result depends only on features,
+/// field and error. simplify() calls this function for each mesh that it builds; Simplified::features and lines_for
+/// contain the last result.
 ///
 /// `field` and `features` are not needed after the call. Fails with kUsage for an error below 0 or not finite, and as
-/// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.
+/// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: that of these functions.
 Result<FittedFeatures> fit_features(const HeightField& field, const Features& features,
                                     const FeatureFitOptions& options);
 

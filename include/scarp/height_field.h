@@ -33,35 +33,35 @@ namespace scarp {
 class PointTransform {
  public:
   virtual ~PointTransform() = default;
-  /// Maps the points (x[k], y[k]) in place; x and y have equal sizes. Returns false if any point has no image
-  /// (it is then NaN).
+  /// Maps the points (x[k], y[k]) in place; x and y have equal sizes. Points without an image become NaN, and the call
+  /// returns false.
   virtual bool apply(std::span<double> x, std::span<double> y) const = 0;
 };
 
-/// A map from the raster's x, y and heights into space, where the earth is round. For fixed x and y it is linear in the
-/// height: verticals are straight lines. Implementations are immutable and thread-safe.
+/// A map from the raster's x, y and heights into space, where the earth is round. For fixed x and y the map is linear
+/// in the height: verticals are straight lines. Implementations are immutable and thread-safe.
 class SpaceTransform {
  public:
   virtual ~SpaceTransform() = default;
-  /// Maps the points (x[k], y[k]) at the heights z[k] in place, in metres; the spans have equal sizes. Returns false if
-  /// any point has no image (it is then NaN).
+  /// Maps the points (x[k], y[k]) at the heights z[k] in place, in metres; the spans have equal sizes. Points without
+  /// an image become NaN, and the call returns false.
   virtual bool to_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
-  /// The inverse: back to x, y and heights.
+  /// The inverse map, to x, y and heights.
   virtual bool from_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
   /// The point from which float32 positions are offsets.
   virtual std::array<double, 3> origin() const = 0;
   /// The unit vector that points away from the earth at the raster's centre.
   virtual std::array<double, 3> up() const = 0;
-  /// The matrix m from the frame to earth-centred, earth-fixed metres: row k of a position is m[4k]·x + m[4k+1]·y +
-  /// m[4k+2]·z + m[4k+3]. Its 3 × 3 part is a rotation.
+  /// The matrix m from the frame to earth-centred, earth-fixed metres: coordinate k of a position is m[4k]·x +
+  /// m[4k+1]·y + m[4k+2]·z + m[4k+3]. Its 3 × 3 part is a rotation.
   virtual std::array<double, 12> to_earth() const = 0;
 };
 
-/// How sample (col, row) becomes a point (x, y) of the mesh:
+/// The map from sample (col, row) to a point (x, y) of the mesh:
 ///   x = affine[0] + affine[1]·col + affine[2]·row
 ///   y = affine[3] + affine[4]·col + affine[5]·row
-/// (GDAL's order of terms; integer col, row are sample *centres*), then `transform`, if set. z is the sample's height.
-/// Only a frame in space, with `space` set, maps x, y and the height together to x, y, z.
+/// (GDAL's order of terms; integer col, row are sample *centres*). Then `transform`, if set, is applied. z is the
+/// sample's height. Only a frame in space, where `space` is set, maps x, y and height together to x, y, z.
 ///
 /// DEFAULT: the frame of a raster without georeference, see grid_frame().
 struct Frame {
@@ -98,7 +98,7 @@ Frame grid_frame(int rows);
 std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
 
 /// True if float32 holds every sample's offset from frame_origin() exactly, so that a mesh written with float32 offsets
-/// has its vertices exactly on the samples. `steps`: checks the lattice of `steps` points a sample. False for
+/// has its vertices exactly on the samples. `steps`: the check covers a lattice of `steps` points a sample. False for
 /// non-affine frames. Cost: O((cols + rows) · steps).
 bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
 
@@ -113,14 +113,13 @@ struct Geodetic {
   double radians_per_unit = 0.017453292519943295;
 };
 
-/// Distance from the centre to a pole, in metres.
 inline double semi_minor(const Geodetic& geodetic) {
   return geodetic.inverse_flattening == 0 ? geodetic.semi_major
                                           : geodetic.semi_major * (1 - 1 / geodetic.inverse_flattening);
 }
 
-/// Length on the ground, in metres, of one unit of x and one of y at a latitude (in units of y); 0, 0 at or beyond a
-/// pole.
+/// Lengths on the ground, in metres, of one unit of x and one unit of y at a latitude (in units of y); {0, 0} at or
+/// beyond a pole.
 std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic = {});
 
 /// The local frame of a raster in degrees: metres east and north of its centre sample (cols / 2, rows / 2), which is at
@@ -128,8 +127,8 @@ std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic =
 /// of curvature at the centre, convert degrees to metres. So the frame is affine, and a bound on the grid holds in the
 /// mesh. Lengths along the centre's parallel and meridian are true; elsewhere east-west lengths are scaled by cos
 /// φ_centre / cos φ. The cell is rounded so that float32 holds each sample's x and y exactly. With 5,000 samples from
-/// the centre to the border, this changes the cell by less than 0.03 %. Needs no GDAL; read_height_field() makes the
-/// same frame from a file's CRS.
+/// the centre to the border, this changes the cell by less than 0.03 %. read_height_field() makes the same frame from a
+/// file's CRS.
 ///
 /// Frame::kind is kLocal, Frame::crs is empty, Frame::description states the centre and the cell. Fails with kUsage for
 /// fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole, and cells whose sides
@@ -142,7 +141,7 @@ struct RasterPlace {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   /// Map from longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
   std::shared_ptr<const PointTransform> from_degrees = nullptr;
-  /// The inverse map. Null if from_degrees is null; if only this is null, NodeSource::visit_samples() passes no
+  /// The inverse map. Null if from_degrees is null. If only to_degrees is null, NodeSource::visit_samples() passes no
   /// samples.
   std::shared_ptr<const PointTransform> to_degrees = nullptr;
 };
@@ -157,24 +156,25 @@ struct SampleAt {
 /// An additional value at each sample, such as a colour: borrowed, on the grid of the heights.
 struct Channel {
   const float* samples = nullptr;  ///< cols·rows values; finite wherever the heights have a value
-  double scale = 1;                ///< factor that makes its errors comparable with errors in z units; at least 0
+  double scale = 1;                ///< factor that makes the channel's errors comparable with errors in z units; at
+                                   ///< least 0
 };
 
 /// Samples that are not an array of floats, such as 16-bit values in memory or a file larger than memory.
 class SampleSource {
  public:
   virtual ~SampleSource() = default;
-  /// Writes the window of cols × rows samples whose first is (col, row) to `out`, row-major, `stride` floats from row
-  /// to row; nodata as NaN. Several threads may call it at once. Fails with kInput, naming file and row. REQUIRES: the
-  /// window lies in the raster.
+  /// Writes a window of cols × rows samples, the first at (col, row), to `out`: row-major, with `stride` floats from
+  /// row to row. Nodata becomes NaN. Several threads may call it at once. Fails with kInput, naming file and row.
+  /// REQUIRES: the window lies in the raster.
   virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
-  /// True if reading a window costs about as much as copying it. False: callers read whole rows from the top down, once
-  /// or a few times, and small windows only where unavoidable.
+  /// True if reading a window costs about as much as copying it. If false, callers read whole rows from the top down,
+  /// once or a few times, and small windows only where unavoidable.
   virtual bool is_in_memory() const = 0;
 };
 
-/// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major, and code k stands for the height
-/// heights[k], NaN for nodata. REQUIRES: `cols` codes in each row, and a height for each code.
+/// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major; code k means the height heights[k], which
+/// is NaN for nodata. REQUIRES: `cols` codes in each row, and a height for each code.
 std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes, int cols, std::vector<float> heights);
 
 /// A height field that borrows its samples.
@@ -183,7 +183,7 @@ std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes
 /// Sample (col, row) is the height at its pixel's centre. NaN, the infinities and samples equal to `nodata` are never
 /// heights.
 struct HeightField {
-  const float* samples = nullptr;              ///< cols·rows values, owned by the caller, who keeps them alive
+  const float* samples = nullptr;              ///< cols·rows values, owned and kept alive by the caller
   int cols = 0;                                ///< at least 2
   int rows = 0;                                ///< at least 2
   std::optional<float> nodata = std::nullopt;  ///< DEFAULT: none besides NaN and ±infinity
@@ -192,24 +192,24 @@ struct HeightField {
   /// Largest |given value − float32 sample| of data that does not fit float32 (int32, float64). Bounds are tightened by
   /// this much, so that they hold for the given values. DEFAULT: 0.
   double sample_rounding = 0;
-  /// At most kMaxChannels. With channels, the error of a sample is the norm of (height_scale · |height error|, scale₁ ·
-  /// |error₁|, …). DEFAULT: none.
+  /// At most kMaxChannels channels. With channels, the error of a sample is the norm of (height_scale · |height error|,
+  /// scale₁ · |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
   double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
-  /// The source of the samples, borrowed, if `samples` is null. simplify() on heights only and measure() accept it;
-  /// functions that need the samples as one array fail with kUsage. DEFAULT: none.
+  /// Source of the samples, borrowed, if `samples` is null. simplify() (without channels) and measure() accept a
+  /// source; functions that need one array of samples fail with kUsage. DEFAULT: none.
   const SampleSource* source = nullptr;
 };
 
 inline constexpr int kMaxChannels = 64;
 
-/// A height, and the number of samples that have it.
+/// A height, and the number of samples with this height.
 struct HeightCount {
   double height = 0;
   std::uint64_t samples = 0;
 };
 
-/// A height that most likely is undeclared nodata: see find_undeclared_nodata().
+/// A height that is probably undeclared nodata: see find_undeclared_nodata().
 struct UndeclaredNodata {
   HeightCount of;
   double value = 0;         ///< the corresponding value in the file
@@ -219,9 +219,10 @@ struct UndeclaredNodata {
 
 /// Signs that heights packed into colours are wrong: the colours were changed after packing, or are not packed heights.
 struct PackedDoubts {
-  /// Number of suspect samples. Both neighbours of such a sample in its row are close together, but differ from it by
-  /// an eighth to one and a half times the weight of the next colour, which changes there. 0 unless the result is
-  /// typical of interpolation or lossy compression. In a large raster, only some rows are searched for interpolation.
+  /// Number of suspect samples. The two neighbours of a suspect sample in its row have similar heights, but differ from
+  /// the sample by an eighth to one and a half times the weight of the next colour, which changes at the sample. 0
+  /// unless the differences are typical of interpolation or lossy compression. In a large raster, only some rows are
+  /// searched for interpolation.
   std::uint64_t torn = 0;
   double torn_by = 0;      ///< largest such difference
   std::string seems = {};  ///< another encoding with plausible heights, if most heights as read are impossible on earth
@@ -231,8 +232,8 @@ struct PackedDoubts {
 struct VoidCount {
   std::uint64_t filled = 0;  ///< samples
   std::uint64_t left = 0;    ///< samples of larger voids and of voids at the raster's edge
-  /// Over the remaining voids: `least` is the highest of their lowest neighbouring heights, `most` the lowest of their
-  /// highest ones.
+  /// Each remaining void has a lowest and a highest neighbouring height. `least`: the highest of the lowest ones;
+  /// `most`: the lowest of the highest ones.
   double least = 0, most = 0;
 };
 
@@ -242,21 +243,22 @@ struct RasterInfo {
   std::string format;       ///< "GTiff", "PGM", "STM", …
   std::string sample_type;  ///< type in the file: "Int16", "Float32", …
   std::string crs;          ///< CRS of the file, such as "EPSG:4326", or WKT without a known authority; empty if none
-  std::string crs_unit;     ///< unit of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
+  std::string crs_unit;     ///< unit of the CRS's x and y: "metre", "US survey foot", "degree"; empty without a CRS
   double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
   bool is_geographic = false;     ///< x and y of the file are degrees
   std::string vertical;           ///< vertical datum of the heights, if the CRS names it: "EGM96 height"; else empty
   bool is_ellipsoidal = false;    ///< true if the CRS declares ellipsoidal heights
-  std::string crs_with_heights;   ///< WKT of the CRS where `vertical` is set; else empty
+  std::string crs_with_heights;   ///< WKT of the CRS if `vertical` is set; else empty
   std::string unit;               ///< unit of z if it is known; else empty
   double unit_in_metres = 1;      ///< length of the unit of z, known or assumed (HeightsIn); 0 if its name is unknown
   std::string file_unit;          ///< unit of the file's values, if known and different from `unit`; else empty
   bool unit_is_assumed = false;   ///< true if the unit of z, or of the values converted to metres, is not declared
   double scale = 1, offset = 0;   ///< declared by the file: value = scale · (stored value) + offset
-  double z_scale = 1, z_offset = 0;  ///< height = z_scale · value + z_offset, by ReadOptions and the conversion to
+  double z_scale = 1, z_offset = 0;  ///< height = z_scale · value + z_offset, from ReadOptions and the conversion to
                                      ///< metres
   std::optional<double> nodata;      ///< the nodata value used, as a value of the file
-  std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
+  std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's geotransform, of the pixel *corner*; identity if
+                                                         ///< none
   bool has_georeference = false;
   double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS
   double cell_x_m = 0, cell_y_m = 0;  ///< the same in metres at the centre; 0 if unknown
@@ -269,7 +271,7 @@ struct RasterInfo {
   std::string view = {};       ///< description of the selection by ReadOptions::view; empty for one unchanged raster
   PackedDoubts packed = {};    ///< set for heights packed into colours
   std::string depths = {};     ///< the reason why the values, which were not negated, seem to be depths; else empty
-  bool seems_degrees = false;  ///< true if x and y resemble degrees without a geographic CRS
+  bool seems_degrees = false;  ///< true if x and y resemble degrees, but the CRS is not geographic
 };
 
 /// A height field that owns its samples, or their source. Nodata is NaN.
@@ -298,15 +300,15 @@ struct OwnedHeightField {
   operator HeightField() const { return view(); }  // NOLINT: the function accepts both
 };
 
-/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none. The same holds for
-/// samples that are not in memory: use Measurement::heights for them.
+/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, or if the samples are
+/// not in memory: use Measurement::heights for these.
 struct HeightRange {
   static constexpr std::size_t kEnds = 6;
 
   std::uint64_t valid = 0;
   double min = 0, max = 0;
-  /// The lowest and the highest distinct heights, from the outermost inwards, and the number of samples that have each;
-  /// unused entries have 0 samples.
+  /// The lowest and the highest distinct heights, from the outermost inwards, with their numbers of samples; unused
+  /// entries have 0 samples.
   std::array<HeightCount, kEnds> lowest{}, highest{};
 
   /// Adds the range of another part of the raster.
@@ -314,20 +316,21 @@ struct HeightRange {
 };
 HeightRange height_range(const HeightField& field, int threads = 1);
 
-/// The heights at either end of the range that most likely are undeclared nodata. `scale`, `offset`: height = scale ·
-/// value + offset. The following values count as nodata, depending on the distance of the height from all others:
+/// The heights at either end of the range that are probably undeclared nodata. `scale`, `offset`: height = scale ·
+/// value + offset. Below, "range" means that of all other heights. These values count as nodata:
 /// - a usual sign for nodata (-999, -10000, -32768; ±9999, ±99999, ±999999, ±32767, ±65535; beyond ±1e20), at least a
-///   fifth of the others' range away;
-/// - 0, at least a twentieth of the range and 10 away, if a thousandth of the samples has it: the shore of a real sea
-///   at 0 is not much higher;
-/// - another whole number, such as -99, at least the range away, if a thousandth of the samples (at least 10 of them,
-///   at most half) has it;
+///   fifth of the range away;
+/// - 0, at least a twentieth of the range and 10 away, if at least a thousandth of the samples is 0 (land near a real
+///   sea at 0 is not much higher);
+/// - another whole number, such as -99, at least the range away, if a thousandth to half of the samples, and at least
+///   10, have it;
 /// - any other value, at least 50 times the range away, if at most a hundredth of the samples has it.
-/// The others must differ, and at most HeightRange::kEnds − 1 such heights are found at one end. Cost: O(1).
+/// If all other heights are equal, only the first rule applies. At most HeightRange::kEnds − 1 heights are found at one
+/// end. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
-/// The map from samples to the coordinates of lines. These are the coordinates of the raster's file or, if it has none,
-/// x = col, y = rows − 1 − row.
+/// The map from samples to the coordinates of lines. These are the coordinates of the raster's file or, if the file has
+/// none, x = col, y = rows − 1 − row.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples of a valid one (Euclidean, along the
@@ -336,7 +339,7 @@ std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 /// are in memory (those of a source do not change). Cost: O(cols·rows), 16 extra bytes for each nodata sample.
 std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance);
 
-/// Sets every nodata sample to the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
+/// Sets all nodata samples to the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 // Samples changed by lines.
@@ -347,25 +350,26 @@ struct SampleEdit {
   float before = 0, after = 0;
 };
 
-/// Returns `source` with the edits of Simplified::edits applied. The bound of a mesh with hard lines holds for these
-/// samples. `edits`: of valid samples, in raster order. Cost: that of a window, and a search for its first edit in each
-/// row.
+/// Returns `source` with Simplified::edits applied. The bound of a mesh with hard lines holds for the edited samples.
+/// `edits`: edits of valid samples, in raster order. Cost of a window: that of `source`, and one search for edits in
+/// each row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
 
-/// Applies the edits to `field`, in memory or by edit_source(). `edits`: as above. Cost: O(edits).
+/// Applies the edits to `field`, in memory or by edit_source(). `edits`: as for edit_source(). Cost: O(edits).
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 // Scattered samples as values.
 
 /// A line through points of a set: a contour, a ridge, the foot of a dam.
 struct PointLine {
-  std::vector<std::uint32_t> points;  ///< at least two indices; successive ones differ; a ring ends with its first
+  std::vector<std::uint32_t> points;  ///< at least two indices; successive ones differ; rings end with their first
   std::string name;                   ///< for messages: "contours.gpkg feature 12"
-  bool keeps_vertices = false;        ///< all of its points become vertices, as with breaklines; false: only as needed
+  bool keeps_vertices = false;        ///< all of its points become vertices, as for breaklines; false: only those
+                                      ///< needed
 };
 
-/// The points of one of ASPRS's classes: 2 is ground.
+/// The points of an ASPRS class; class 2 is ground.
 struct PointClass {
   int number = 0;
   std::uint64_t points = 0;
@@ -377,7 +381,7 @@ struct LasFacts {
   std::string version;              ///< "1.4"
   int point_format = 0;             ///< 0 to 10
   std::uint64_t points = 0;         ///< number in the file
-  std::vector<PointClass> classes;  ///< sorted by number: the points that are not withheld, read or not
+  std::vector<PointClass> classes;  ///< points that are not withheld, read or not; sorted by number
   std::uint64_t withheld = 0, of_other_classes = 0, overlap = 0, of_other_returns = 0;
 };
 
@@ -385,15 +389,15 @@ struct LasFacts {
 struct PointSet {
   std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
   std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: none
-  /// Rings of polygons, by the indices of their corners, at which the surface ends; holes are also rings. All points
-  /// lie inside, by the even-odd rule. From cut_to_boundary(). EMPTY: the surface ends at a hull.
+  /// Rings of polygons at which the surface ends, as indices of their corners; holes are also rings. All points lie
+  /// inside, by the even-odd rule. From cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
   /// Bounds of the first points, for PointOptions::tolerances; the other points have none. Functions that omit or sort
   /// points keep each bound with its point. EMPTY: none.
   std::vector<float> tolerances;
-  /// Boundaries in the file that do not end the surface, as read_lines() names them: "survey.xml:EG".
+  /// Boundaries in the file at which the surface does not end, named as in read_lines(): "survey.xml:EG".
   std::vector<std::string> outlines;
-  std::string path;         ///< their source, for messages
+  std::string path;         ///< source of the points, for messages
   std::string format;       ///< "CSV", "GPKG", …
   std::string crs;          ///< CRS of x and y: "EPSG:32611", WKT, or empty
   std::string description;  ///< one line for reports: the meaning and unit of x and y
@@ -408,28 +412,27 @@ struct PointSet {
   RasterInfo heights = {};
   std::vector<std::string> warnings;
   std::string columns;               ///< one line for reports: the use of each column, or the origin of the heights
-  std::uint64_t without_height = 0;  ///< number of points omitted by ReadPointsOptions::nodata
-  std::uint64_t spikes = 0;          ///< number of points omitted by drop_spikes()
-  std::uint64_t outside = 0;         ///< number of points omitted by ReadPointsOptions::extent
+  std::uint64_t without_height = 0;  ///< points omitted by ReadPointsOptions::nodata
+  std::uint64_t spikes = 0;          ///< points omitted by drop_spikes()
+  std::uint64_t outside = 0;         ///< points omitted by ReadPointsOptions::extent
   bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 
   std::size_t size() const { return x.size(); }
-  /// The position of a point in the coordinates of the file, except for rounding.
+  /// The position of a point in the coordinates of the file, up to rounding.
   std::array<double, 2> place_in_file(std::size_t i) const {
     return {to_source[0] + to_source[1] * x[i], to_source[3] + to_source[5] * y[i]};
   }
 };
 
-/// Rule for several points with equal x and equal y, as given.
+/// Rule for several points with the same given x and y.
 enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
 
 /// The fit of the convex hull to points.
 struct HullFit {
-  double bridged = 0;          ///< share of its area in bays without points
-  std::uint64_t slivers = 0;   ///< long steep triangles along it, where the points' outline is nearly straight
-  double boundary_length = 0;  ///< PointOptions::boundary_length for a mesh that ends at the points instead; 0: the
-                               ///< hull fits
+  double bridged = 0;          ///< share of the hull's area in bays without points
+  std::uint64_t slivers = 0;   ///< long steep triangles along the hull, where the points' outline is nearly straight
+  double boundary_length = 0;  ///< PointOptions::boundary_length for a mesh that ends at the points; 0: the hull fits
 };
 
 }  // namespace scarp

@@ -24,27 +24,26 @@
 
 namespace scarp {
 
-// The formats of mesh files: one table for options, help, completions, messages, writers and readers.
+// Mesh formats: one table for options, help, completions, messages, writers and readers.
 
 /// The frame of a mesh if no CRS is chosen.
 enum class DefaultFrame {
-  kLocal,   ///< around the raster's centre: for viewers, which need short numbers
-  kMetric,  ///< local for degrees, else the raster's own CRS: for files of shapes in space, in double
-  kSource,  ///< the raster's own CRS, even degrees: for files drawn on maps
+  kLocal,   ///< relative to the raster's centre: for viewers, which need short numbers
+  kMetric,  ///< local for a raster in degrees, else the raster's own CRS: for 3-D shapes in double
+  kSource,  ///< the raster's own CRS, even in degrees: for maps
 };
 
-/// The unit of a field's heights. Heights without a declared unit are in the unit of the CRS's x and y if that is a
-/// length, else in metres.
+/// The unit of a field's heights. Heights without a declared unit are assumed to be in the unit of the CRS's x and y if
+/// that is a length, else in metres.
 enum class HeightsIn {
-  kFrame,   ///< metres in local frames of a CRS and in space, else the unit of the file
+  kFrame,   ///< metres in space and in local frames of a CRS, else the unit of the file
   kMetres,  ///< metres in every frame: for formats specified in metres
   kFile,    ///< the unit of the file
 };
 
-/// The formats, in the order of the table.
 enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf, kMsh };
 
-/// The properties of a format, independent of a mesh. Formats without a property omit its field.
+/// The properties of a format, independent of a mesh. Formats without a property omit its member.
 struct MeshFormatTraits {
   MeshFormat format;
   const char* name;             ///< "landxml", for --of; one of the endings
@@ -59,15 +58,15 @@ struct MeshFormatTraits {
   DefaultFrame frame = DefaultFrame::kMetric;  ///< frame of x and y unless a CRS is requested
   HeightsIn heights = HeightsIn::kFrame;
   char up = 'z';                     ///< the axis that points up, 'y' or 'z'
-  bool has_choice_of_up = false;     ///< --up selects the axis; `up` is the one that most readers expect
+  bool has_choice_of_up = false;     ///< --up selects the axis; `up` is the axis that most readers expect
   bool is_float32 = false;           ///< positions are offsets from the origin, rounded to float32; else doubles
   bool has_lengths_only = false;     ///< rejects degrees
-  bool has_projection_file = false;  ///< cannot hold a CRS that all its readers use; a .prj file holds it
+  bool has_projection_file = false;  ///< not all readers use a CRS in the file; a .prj file holds the CRS
 
   // Contents of a file in addition to triangles.
   bool holds_attributes = false;  ///< normals, uvs, colours
   bool holds_zones = false;       ///< materials and node strings: MeshZones
-  bool holds_prints = false;      ///< printing programs read millimetres
+  bool holds_prints = false;      ///< printing programs read numbers as millimetres
   bool holds_solids_only = false;
   bool holds_space = true;  ///< z may differ from the height
 
@@ -79,7 +78,7 @@ struct MeshFormatTraits {
 
 /// All formats, in the order of MeshFormat.
 std::span<const MeshFormatTraits* const> mesh_formats();
-/// The row of a format. REQUIRES: `format` is a value of MeshFormat.
+/// REQUIRES: `format` is a value of MeshFormat.
 const MeshFormatTraits& traits_of(MeshFormat format);
 
 /// Finds the format by its name ("glb", "OBJ", "landxml", …) or by a path's extension (".xml" is LandXML). Returns
@@ -95,10 +94,10 @@ enum class Decode { kNone, kTerrarium, kMapbox };
 
 /// Several rasters read as one, or a part or a coarser version of a raster.
 struct RasterView {
-  /// Rasters that form a mosaic with the first one. Where several have a value, that of the last one is used; where
-  /// none has a value, the sample is missing. They share CRS, vertical datum, number of bands, unit and grid; each has
-  /// its own sample type, nodata value, mask, scale and offset. Rasters on both sides of the 180th meridian are placed
-  /// side by side.
+  /// Rasters that form a mosaic with the first raster. Where several have a value, the last one is used; where none has
+  /// a value, the sample is missing. All have the same CRS, vertical datum, number of bands, unit and grid. Sample
+  /// type, nodata value, mask, scale and offset may differ. Rasters on both sides of the 180th meridian are placed side
+  /// by side.
   std::vector<std::string> more = {};
   /// xmin, ymin, xmax, ymax in the units of the raster's CRS: only cells that overlap this rectangle are read.
   std::optional<std::array<double, 4>> extent = std::nullopt;
@@ -112,19 +111,20 @@ struct RasterView {
 struct ReadOptions {
   int band = 1;                                 ///< 1-based
   std::optional<double> nodata = std::nullopt;  ///< replaces the file's nodata value, which then is an ordinary height
-  Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
-  /// Frame of the mesh. Empty (DEFAULT): `default_frame`, or the grid frame without georeference. "source": the
+  Decode decode = Decode::kNone;  ///< encoding of heights in red, green, blue (8 bit each); alpha 0 is nodata
+  /// Frame of the mesh. Empty (DEFAULT): `default_frame` or, without georeference, the grid frame. "source": the
   /// raster's own coordinates. "local": metres around the raster's centre. "grid": columns and rows. "enu", or a
   /// geocentric CRS ("EPSG:4978"): a frame in space, where the earth is round (Frame::space). Anything else is a CRS
   /// for GDAL ("EPSG:32611", "32611", WKT, PROJ string).
   std::string crs = {};
   DefaultFrame default_frame = DefaultFrame::kLocal;
-  /// A height is z_scale · value + z_offset, where `value` is the file's, with the file's scale and offset applied. The
-  /// field's heights, range and errors refer to this height; nodata refers to the file's value. DEFAULT: as in the
-  /// file.
+  /// A height is z_scale · value + z_offset, where `value` is the file's value with the file's scale and offset
+  /// applied. The field's heights, range and errors refer to this height; nodata refers to the file's value. DEFAULT:
+  /// as in the file.
   double z_scale = 1, z_offset = 0;  ///< finite; z_scale is not 0
   /// The unit of these heights before the conversion to metres: "m", "ft", "us-ft" … or the file's own word. DEFAULT:
-  /// that of the file or its vertical CRS; metres if `z_scale` converts it to metres; unknown with another factor.
+  /// that of the file or its vertical CRS; metres if `z_scale` converts that unit to metres; unknown with another
+  /// factor.
   std::string z_unit = {};
   /// The unit of the field's heights. With a conversion to metres, RasterInfo::z_scale is the product of both factors.
   /// Fails with kUsage if heights in an unknown unit must be converted.
@@ -133,23 +133,23 @@ struct ReadOptions {
   /// the raster. Fails with kUsage for any other frame. DEFAULT: 1, the grid frame.
   std::optional<double> cell_size = std::nullopt;
   /// Memory::limit (0: the machine's memory), and progress. read_height_field() fails for a raster that needs more
-  /// memory; open_height_field() uses only that much.
+  /// memory; open_height_field() always stays within the limit.
   Run run = {};
-  /// open_height_field() reads a streamed raster once, for the range in its info. DEFAULT: false.
+  /// open_height_field() reads a streamed raster once, to set the range in RasterInfo. DEFAULT: false.
   bool with_range = false;
   /// The samples are tolerances or weights, not heights: a raster without any value is not an error, and the warning
   /// about infinities names the file. DEFAULT: false.
   bool as_values = false;
-  /// Nodata within this many samples of a height is filled by fill_nodata(), and then counts as heights; the range in
-  /// the info is the one before filling. Fails with kInput if the samples as floats exceed the memory limit. DEFAULT:
-  /// 0, none is filled.
+  /// Nodata samples within this many samples of a height are filled by fill_nodata(), and then count as heights. The
+  /// range in RasterInfo is that before filling. Fails with kInput if the samples as floats exceed the memory limit.
+  /// DEFAULT: 0, none.
   double fill_distance = 0;
   /// Enclosed voids (8-connected nodata away from the raster's edge) of at most this many samples a side are filled as
-  /// by fill_nodata(), in memory or while windows are read: RasterInfo::voids. DEFAULT: 0, none is filled.
+  /// by fill_nodata(), in memory or while windows are read. RasterInfo::voids counts them. DEFAULT: 0, none.
   int void_side = 0;
   /// The view of the rasters, always read by GDAL. Fails with kInput for rasters that form no mosaic or do not overlap
-  /// the extent. Fails with kUsage for an extent or a resolution unless the georeference has x running east, and y
-  /// north or south. DEFAULT: one unchanged raster.
+  /// the extent. Fails with kUsage for an extent or a resolution unless x runs east, and y north or south. DEFAULT: one
+  /// unchanged raster.
   RasterView view = {};
 };
 
@@ -157,13 +157,13 @@ struct ReadOptions {
 /// or URL that it opens (also /vsicurl/, /vsizip/, http:// and https://), except HDF4, whose library crashes on damaged
 /// files. Standard input ("-") and pipes are copied to an unnamed file in the folder for temporary files. Nodata
 /// (declared, overridden, mask band, alpha, NaN, ±infinity) becomes NaN. Fails with kInput for a file that is missing,
-/// truncated or not a raster, fewer than 2×2 samples, a band out of range, and if no sample is valid; with kUsage for a
-/// CRS that is unknown or has no transformation.
+/// truncated or not a raster, for fewer than 2×2 samples or a band out of range, and if no sample is valid; with kUsage
+/// for a CRS that is unknown or has no transformation.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// The samples next to a part of a raster, for Border::beyond. The part is a field that read_height_field() read with
-/// an extent (ReadOptions::view); the samples are those of the raster or mosaic around it. Unknown where the raster
-/// ends, and without an extent. Nodata is not filled. Fails as read_height_field().
+/// Reads the samples next to a part of a raster, for Border::beyond. The part was read by read_height_field() with an
+/// extent (ReadOptions::view). The result is samples of the surrounding raster or mosaic; unknown where that ends, and
+/// without an extent. Nodata is not filled. Fails as read_height_field().
 Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
                                 int rows);
 
@@ -171,7 +171,7 @@ Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& opti
 struct PlaceInSource {
   /// From x and y of the mesh: source x = t[0] + t[1]·x + t[2]·y, source y = t[3] + t[4]·x + t[5]·y.
   std::array<double, 6> to_source{0, 1, 0, 0, 0, 1};
-  std::string crs;  ///< CRS of the source, as RasterInfo::crs; empty if it has none
+  std::string crs;  ///< CRS of the source, as RasterInfo::crs; empty if none
 
   /// Source coordinates of x = 0, y = 0.
   std::array<double, 2> origin() const { return {to_source[0], to_source[3]}; }
@@ -182,28 +182,28 @@ std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInf
 /// True if ReadOptions::crs requests a frame in space: "enu" or a geocentric CRS. False in a build without GDAL.
 bool is_in_space(const std::string& crs);
 
-/// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing for an unknown CRS, and in a build without GDAL.
+/// Returns the CRS as the text of a .prj file (ESRI's WKT, one line); nothing for an unknown CRS, and in a build
+/// without GDAL.
 std::optional<std::string> projection_text(const std::string& crs);
 
 /// Opens one raster of any size, for simplify() and measure(). If its samples as floats (4 bytes each) fit the memory
-/// limit, they are read as by read_height_field(). If its 16-bit samples (2 bytes each: Byte, Int16 and UInt16 without
-/// a mask other than nodata) fit, they are read unchanged, and the field has a source. Otherwise the raster is
+/// limit, they are read as by read_height_field(). If only its 16-bit samples (2 bytes each: Byte, Int16 and UInt16
+/// without a mask other than nodata) fit, they are read unchanged, and the field has a source. Otherwise the raster is
 /// streamed: the source reads one window at a time from the file through GDAL's block cache, whose size is the memory
-/// limit plus 8 MB (unless GDAL_CACHEMAX is set). If two rows of blocks fit the cache, the file is decoded once or
-/// twice a pass, else again for every few rows.
+/// limit plus 8 MB (unless GDAL_CACHEMAX is set). If two rows of blocks fit the cache, a pass decodes the file once or
+/// twice, else again for every few rows.
 ///
-/// A streamed raster has no range in its info unless options.with_range is set. Its infinities are nodata without a
+/// A streamed raster has no range in its info unless options.with_range is set. Its infinities become nodata without a
 /// warning, and a file without any height is not an error. Samples that may not fit float32 (32-bit and larger
-/// integers, float64, scaled ones) are always read once to find sample_rounding. The samples are those of
-/// read_height_field(). Fails as read_height_field() does, also for a PGM or STM larger than the memory limit, since
-/// these are read as a whole.
+/// integers, float64, scaled values) are always read once to find sample_rounding. The samples equal those of
+/// read_height_field(). Fails as read_height_field(), also for a PGM or STM larger than the memory limit, since these
+/// formats are read as a whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// The bands of an image as channels.
 struct OwnedChannels {
   int cols = 0, rows = 0;
   std::vector<std::vector<float>> bands;  ///< each row-major, cols·rows; nodata is NaN
-  bool is_8bit = false;                   ///< bytes in the file
+  bool is_8bit = false;                   ///< the file contains bytes
   bool is_color = false;                  ///< three bands: red, green, blue
   Frame frame;
   RasterInfo info;
@@ -211,7 +211,7 @@ struct OwnedChannels {
 
 /// Reads all bands of an image (or only `band` of the options, if `all_bands` is false) by GDAL; PGM and STM also
 /// without GDAL. Palettes become red, green, blue. `info` counts samples with a value in every band as valid; its range
-/// is over all bands. Fails as read_height_field() (options.crs "grid" cannot fail), and with kInput for more
+/// covers all bands. Fails as read_height_field() (options.crs "grid" cannot fail), and with kInput for more
 /// than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
@@ -226,7 +226,7 @@ std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double
 std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
                                                 int other_cols, int other_rows);
 
-/// A script as read_script() reads it: samples to insert and to ignore, in the order of its lines.
+/// The result of read_script(): samples to insert and to ignore, in the order of the script's lines.
 struct Script {
   std::vector<SampleAt> inserted;  ///< for Features::points
   std::vector<SampleAt> ignored;   ///< for Tolerances::ignored
@@ -236,8 +236,8 @@ struct Script {
 
 /// Reads a script (Terra's -s), one step a line: "s x y" inserts, "i x y" ignores, "u x y" marks the height as unknown
 /// (as i); x and y are column and row from the top left. Empty lines and # comments are skipped. Fails with kInput for
-/// an unknown word, a missing number, a position outside cols × rows (names the line), and a sample inserted by one
-/// line and ignored by another (names both).
+/// an unknown word, a missing number, a position outside cols × rows, and a sample inserted by one line and ignored by
+/// another. The message names the lines.
 Result<Script> read_script(const std::string& path, int cols, int rows);
 
 /// A raster to write: row-major, NaN is nodata.
@@ -247,12 +247,12 @@ struct RasterImage {
   const RasterInfo* like = nullptr;  ///< georeference, CRS and unit are copied from it; may be null
 };
 enum class RasterFormat { kGeoTiff, kPgm };
-/// The file's bytes. GeoTIFF: float32, DEFLATE, nodata NaN. PGM: P5 of 16 bits, samples rounded to whole numbers in 0 …
-/// 65535 (else kOutput), 65535 for NaN.
+/// Returns the file's bytes. GeoTIFF: float32, DEFLATE, NaN as nodata. PGM: P5 of 16 bits; samples are rounded to whole
+/// numbers, and NaN becomes 65535. Fails with kOutput for PGM samples outside 0 … 65535.
 Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, RasterFormat format);
 
 /// A GeoTIFF, with the bytes of encode_raster(), for a raster larger than memory. Rows are added sequentially to a file
-/// with a temporary name, which write_files() renames; without this call, the file is removed.
+/// with a temporary name. write_files() renames this file; without this call, it is removed.
 class RasterFile {
  public:
   /// Fails as write_file() and encode_raster() do.
@@ -287,31 +287,34 @@ struct NodeString {
 };
 
 /// Materials and node strings; encode_mesh() writes them if the format can hold them (MeshFormatTraits::holds_zones). A
-/// 2DM file has materials in E3T cards, and node strings in NS cards of at most ten nodes. The last node is negative,
-/// followed by the string's number, counted from 1.
+/// 2DM file stores materials in E3T cards, and node strings in NS cards of at most ten nodes. A string's last node is
+/// negative; the string's number follows, counted from 1.
 struct MeshZones {
   std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
   std::vector<NodeString> node_strings;  ///< EMPTY: none
 };
 
-/// Options of a writer, and additional contents of a mesh file.
 struct EncodeOptions {
   bool double_positions = false;     ///< PLY: doubles even where float32 is exact
   const MeshZones* zones = nullptr;  ///< materials and node strings, for MeshFormatTraits::holds_zones; null: none
 };
 
-/// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
-/// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, absolute.
-/// STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the same
-/// doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
-/// absolute, raw little-endian arrays after the XML. GeoPackage: double, absolute, in the CRS of metadata["crs"].
-/// Colours, uvs and channels where the format has fields for them: GLB (COLOR_0 as linear float, TEXCOORD_0, _CHANNEL_n
-/// for channels that colours cannot hold), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt, colours
-/// after the coordinates), VTU and VTP (Colors, TCoords, channel_n). They read back the same, except PLY's t = 1 − v,
-/// rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend on the
-/// versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput if the format cannot hold the mesh: in
-/// 2DM and LandXML more than 2³¹ − 1 vertices or triangles; in LandXML degrees, a unit unknown to it, or heights in
-/// another unit than x and y.
+/// Returns the file's bytes:
+/// - GLB: y up (x, z, −y), float32, the origin as node translation, metadata in asset.extras;
+/// - OBJ: text, absolute coordinates that read back to the same doubles, metadata as comments;
+/// - PLY: binary little-endian, absolute;
+/// - STL: binary, float32 offsets from the origin, z up;
+/// - TIN, 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles;
+/// - VTU, VTP: double, absolute, raw little-endian arrays after the XML;
+/// - GeoPackage: double, absolute, in the CRS of metadata["crs"];
+/// - 3MF: as encode_3mf() with one object.
+///
+/// Some formats have fields for colours, uvs and channels: GLB (COLOR_0 as linear float, TEXCOORD_0, _CHANNEL_n for
+/// channels that colours cannot hold), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt, colours after
+/// the coordinates), VTU and VTP (Colors, TCoords, channel_n). These values read back the same, except PLY's t = 1 − v,
+/// rounded to float32. Deterministic; a GeoPackage's bytes also depend on the versions of GDAL and SQLite, a 3MF file's
+/// on that of zlib. Fails with kOutput if the format cannot hold the mesh: in 2DM and LandXML more than 2³¹ − 1
+/// vertices or triangles; in LandXML degrees, a unit unknown to LandXML, or heights in another unit than x and y.
 ///
 /// PLY has float32 positions if float32 holds each of them exactly, as in the local frame; otherwise, and with
 /// `double_positions`, it has doubles. Meshes of turn_y_up() can be written as OBJ, PLY or STL; decode_mesh() turns
@@ -323,10 +326,10 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
 /// placed (place_mesh()), else the metre. Fails with kOutput for a mesh that is not a closed 2-manifold after rounding
 /// (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
-/// Joins GLB files, levels of detail of one object with the finest first, to one file by MSFT_lod. Its nodes are
-/// NAME_LOD0, NAME_LOD1 …; the scene holds the first node, which refers to the others. Level k, from 0, is shown while
-/// it covers at least ratio^(−2 (k + 1)) of the screen; the last level is always shown. REQUIRES: encode_mesh() made
-/// the files; `ratio` above 1. Fails with kOutput above 4 GiB.
+/// Joins GLB files to one file by MSFT_lod. These files are levels of detail of one object, the finest first. The nodes
+/// are NAME_LOD0, NAME_LOD1 …; the scene holds the first node, which refers to the others. Level k (from 0) is shown
+/// while it covers at least ratio^(−2 (k + 1)) of the screen; the last level is always shown. REQUIRES: encode_mesh()
+/// made the files; `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
 /// Joins GLB files side by side to one file: the scene holds all nodes, and the metadata is that of the first file.
 /// REQUIRES: encode_mesh() or encode_glb() made the files. Fails with kOutput above 4 GiB.
@@ -336,8 +339,8 @@ struct MeshFileAxes {
   char up = 0;               ///< 'y' or 'z'; 0 if neither the format nor the file declares it, and z is assumed
   bool has_offsets = false;  ///< positions in the file are offsets from Mesh::origin (GLB, STL, 3MF)
 };
-/// Reads any of these formats except GeoPackage; recognises the format by content. `axes`, if given, receives the axes
-/// of the file. Fails with kInput. Never trusts a length or an index in the file.
+/// Reads all mesh formats except GeoPackage; recognises the format by content. `axes`, if given, receives the axes of
+/// the file. Fails with kInput. Never trusts a length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors,
                          MeshFileAxes* axes = nullptr);
 
@@ -348,7 +351,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
 /// Reads a file by decode_mesh().
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes = nullptr);
 
-/// Writes bytes to a temporary name next to `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
+/// Writes bytes to a temporary file next to `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
 /// Fails with kOutput, also if `path` exists and `overwrite` is false; no new file then remains. Symbolic links are
 /// followed, even to a missing file; an existing file keeps its permissions. Standard output ("-", /dev/stdout), and
 /// existing devices and pipes, are written directly; a pipe without a reader fails with kOutput after two seconds. A
@@ -359,19 +362,19 @@ struct FileBytes {
   std::span<const std::uint8_t> bytes;
   RasterFile* raster = nullptr;  ///< instead of bytes: a finished file, created for the path
 };
-/// write_file() for several files that belong together. All are written to temporary names before the first is renamed.
-/// So none of them remains if the disk is full, the folder is read-only or a name exists. Devices and pipes are written
+/// write_file() for several files that belong together. All are written to temporary files before the first is renamed.
+/// So no file remains if the disk is full, the folder is read-only or a name exists. Devices and pipes are written
 /// last.
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// Reads the whole file (or pipe). Fails with kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
-/// All files needed to read a raster or vector data: the file itself (without its layer, for "FILE:LAYER"), those next
-/// to it (.aux.xml, .prj, …), the sources of a VRT, and an archive around it (/vsizip/z.zip/a.tif, /vsitar/…). Only the
-/// file itself if GDAL cannot open it. Empty for remote and missing files, and in a build without GDAL.
+/// All files needed to read a raster or vector data: the file itself (without its layer, for "FILE:LAYER"), files next
+/// to it (.aux.xml, .prj, …), the sources of a VRT, and an archive around the file (/vsizip/z.zip/a.tif, /vsitar/…).
+/// Only the file itself if GDAL cannot open it. Empty for remote and missing files, and in a build without GDAL.
 std::vector<std::string> list_files(const std::string& path);
 /// Groups the rasters into mosaics; folders are replaced by their rasters. A mosaic consists of neighbours in the list
-/// with the same grid, type, nodata value and CRS, including the vertical datum. A raster that cannot be opened is
-/// separate.
+/// with the same grid, type, nodata value and CRS, including the vertical datum. A raster that cannot be opened forms
+/// its own group.
 std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
 /// Returns of a laser pulse. A point without return numbers counts as the only return.
@@ -382,15 +385,15 @@ struct PointChoice {
   std::vector<std::uint8_t> classes = {};  ///< ASPRS numbers: 2 for ground. EMPTY: all
   PointReturns returns = PointReturns::kAll;
   bool overlap = true;    ///< points in the overlap of flight lines: marked as such, or of class 12 in formats 0 to 5
-  bool withheld = false;  ///< points to be treated as deleted
+  bool withheld = false;  ///< points marked as deleted
 
   bool operator==(const PointChoice&) const = default;
 };
 
 struct ReadPointsOptions {
   /// Layers of a vector file or a drawing (DXF), or surfaces of LandXML, separated by commas; "CgPoints" means
-  /// LandXML's survey points. DEFAULT: the first layer with points, else with lines; for a drawing or LandXML, the only
-  /// one.
+  /// LandXML's survey points. DEFAULT: the first layer with points, else the first with lines; for a drawing or
+  /// LandXML, the only layer.
   std::string layer = {};
   /// Column or attribute with the height. DEFAULT: the third coordinate. If that is missing or 0 everywhere: an
   /// attribute named z, height, elevation, elev, h, alt, ele, hoehe …, if any.
@@ -398,11 +401,11 @@ struct ReadPointsOptions {
   std::string crs =
       {};  ///< "source", "local" or a CRS, as ReadOptions::crs; DEFAULT: local metres for degrees, else source
   ProgressCallback progress = {};
-  /// The contents of a text file's columns: "number,northing,easting,height,code", or as letters "pnezd"; - for an
+  /// The contents of a text file's columns: "number,northing,easting,height,code", or as letters "pnezd"; "-" is an
   /// unused column. DEFAULT: the names in the header, else guessed from the columns.
   std::string columns = {};
-  /// Points with this height are omitted and counted, as are points with an empty or non-finite height. NaN: only the
-  /// latter. DEFAULT: the call fails if a height is missing.
+  /// Points with this height are omitted and counted, as are points with an empty or non-finite height. NaN: only
+  /// points with an empty or non-finite height are omitted. DEFAULT: the call fails if a height is missing.
   std::optional<double> nodata = {};
   /// Heights and their unit, as in ReadOptions. DEFAULT of z_unit: the unit in the name of the column or attribute
   /// ("elev_ft", "Elevation (mm)"), else that of the vertical CRS, else that of x and y.
@@ -410,12 +413,12 @@ struct ReadPointsOptions {
   std::string z_unit = {};
   HeightsIn heights_in = HeightsIn::kFrame;
   /// With kLocal and without `crs`, x and y in units other than metres become local metres. x and y in metres do not
-  /// change; the caller moves them to local_origin(). `heights_in` treats both frames as local.
+  /// change; the caller moves them to local_origin(). `heights_in` treats x and y as local in both cases.
   DefaultFrame default_frame = DefaultFrame::kMetric;
   /// xmin, ymin, xmax, ymax in the file's own coordinates: only points in this rectangle, including its sides, are
-  /// read. From a COPC file, only the necessary parts are read. Fails with kUsage for lines. DEFAULT: all points.
+  /// read. Only the necessary parts of a COPC file are read. Fails with kUsage for lines. DEFAULT: all points.
   std::optional<std::array<double, 4>> extent = std::nullopt;
-  PointChoice choice = {};  ///< for LAS and LAZ; else fails with kUsage unless it is the default
+  PointChoice choice = {};  ///< for LAS and LAZ; for other files, fails with kUsage unless it is the default
   int threads = 0;          ///< for LAS and LAZ; 0: all cores. Never changes the points. DEFAULT: 0.
 };
 
@@ -423,25 +426,26 @@ struct ReadPointsOptions {
 /// 0 to 10, COPC; all files of a folder), and LandXML (survey points; points, breaklines and contours of a surface,
 /// else its TIN). GDAL reads all other formats (GeoPackage, GeoJSON, Shapefile, DXF, …). Columns are separated by
 /// commas, semicolons, tabs or blanks; decimal commas are accepted unless commas separate columns. A header line names
-/// the columns. Without one, the first three columns, after one of consecutive numbers if any, are x, y, z. Lines that
-/// begin with #, % or // are comments. If neither header nor values identify the northing, the call fails and names
-/// `columns`. The vertices of lines, such as contours with the height as an attribute or third coordinate, are also
-/// points, and PointSet::lines holds their order. Curves become chords of at most 4 degrees. Fails with kInput for a
-/// missing or empty file, a line without three numbers, a value that is not finite, a feature without a height (names
-/// the line or feature), polygons, a layer without points and lines, and a damaged or truncated LAS file.
+/// the columns. Without a header, the first three columns are x, y, z, after a column of consecutive numbers if there
+/// is one. Lines that begin with #, % or // are comments. If neither header nor values identify the northing, the call
+/// fails and names `columns`. The vertices of lines, such as contours with the height as an attribute or third
+/// coordinate, also become points; PointSet::lines stores their order. Curves become chords of at most 4 degrees. Fails
+/// with kInput for a missing or empty file, a line without three numbers, a value that is not finite, a feature without
+/// a height (the message names the line or feature), polygons, a layer with neither points nor lines, and a damaged or
+/// truncated LAS file.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
 /// True if `path` names points rather than a raster, by its ending in upper or lower case: .las .laz .csv .tsv .xyz
 /// .geojson .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg unless it
 /// holds a raster; LandXML and DXF without triangles; a folder of LAS and LAZ files without rasters. Text with columns
-/// is a raster if its points are the nodes of one, in any order, possibly with some missing. No point may then be off
-/// the lattice or a duplicate. Two thirds of the points must have neighbours in both directions, and a twentieth of all
-/// nodes must be points.
+/// counts as a raster if its points are nodes of a lattice, in any order. No point may be off the lattice or a
+/// duplicate. Two thirds of the points must have neighbours in both directions, and a twentieth of all nodes must be
+/// points.
 bool is_point_file(const std::string& path);
 
 /// For signal handlers that call unlink(): the current temporary names of write_file() and write_files(), in
-/// kPendingOutputs slots; an unused slot is empty. With more files, only the first names are returned. Points to a
-/// static buffer; async-signal-safe.
+/// kPendingOutputs slots; an unused slot is empty. Extra names are omitted. Returns a pointer to a static buffer;
+/// async-signal-safe.
 inline constexpr int kPendingOutputs = 128;
 const char* pending_output(int place = 0);
 /// For signal handlers: the state of renaming in write_files(). A program that ends while the state is kNow creates
@@ -456,7 +460,7 @@ struct Picture {
 };
 Result<std::vector<std::uint8_t>> encode_png(const Picture& picture);
 enum class ImageFormat { kPng, kJpeg, kWebp };
-/// The file's bytes, by GDAL's drivers; JPEG and WebP with quality 90. Fails with kOutput.
+/// The file's bytes, encoded by GDAL; JPEG and WebP with quality 90. Fails with kOutput.
 Result<std::vector<std::uint8_t>> encode_image(const Picture& picture, ImageFormat format);
 
 // GLB files: compression and images.
@@ -470,30 +474,31 @@ struct GlbImage {
 struct GlbOptions {
   /// Quantises (KHR_mesh_quantization) and compresses (EXT_meshopt_compression, version 0 of the codec). Positions do
   /// not change: x and y are 16-bit multiples of at least 1/256 of `cell`, and z is a 16-bit multiple of a power of
-  /// two. A mesh or an axis that does not fit remains float32, and is also compressed. simplify() with Output::lattice
-  /// makes meshes that fit. Texture coordinates (16 bits), normals (12 significant bits a component) and colours (16
-  /// bits, linear) are rounded. Triangles and vertices are ordered for the fewest bytes.
+  /// two. A mesh or an axis that does not fit such multiples remains float32, and is also compressed. simplify() with
+  /// Output::lattice makes meshes that fit. Texture coordinates (16 bits), normals (12 significant bits a component)
+  /// and colours (16 bits, linear) are rounded. Triangles and vertices are ordered for the fewest bytes.
   bool compress = false;
   /// Sides of a cell of the raster along x and y, of either sign: Frame::affine[1] and [5]. DEFAULT: none.
   std::array<double, 2> cell{0, 0};
-  GlbImage base_color = {};  ///< draped over the mesh by its uvs; without it, a mesh with uvs gets one white pixel
-  /// Tangent-space normals by the mesh's uvs. Every vertex then has the normal (0, 0, 1) and the tangent (1, 0, 0),
-  /// instead of Mesh::normals. So red, green and blue are x, y and z of the surface's normal for all triangles.
+  GlbImage base_color = {};  ///< draped over the mesh by its uvs; without an image, a mesh with uvs gets one white
+                             ///< pixel
+  /// Tangent-space normals at the mesh's uvs. They replace Mesh::normals: every vertex has the normal (0, 0, 1) and the
+  /// tangent (1, 0, 0). So red, green and blue are x, y and z of the surface's normal in all triangles.
   GlbImage normal_map = {};
   int threads = 1;  ///< 0: all cores. Never changes the bytes. DEFAULT: 1.
 };
 
-/// True if this build can `compress`: it has libmeshoptimizer.
+/// True if this build has libmeshoptimizer and can `compress`.
 bool can_compress_glb();
 
-/// The bytes of a GLB file. With default options they equal those of encode_mesh(). Fails with kOutput as encode_mesh()
-/// does, for images without uvs, and for `compress` if positions are neither on the lattice nor float32, or without
-/// libmeshoptimizer; with kInput if memory runs out.
+/// Returns the bytes of a GLB file; with default options those of encode_mesh(). Fails with kOutput as encode_mesh()
+/// does, for images without uvs, for `compress` without libmeshoptimizer, and for `compress` if positions are neither
+/// on the lattice nor float32; with kInput if memory runs out.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
 
 // Images draped over a raster.
 
-/// An image at the position of a raster, whose corners are those of the uv square (Mesh::uvs).
+/// An image of the area of a raster. Its corners are those of the uv square (Mesh::uvs).
 struct Drape {
   Picture picture;
   double covered = 1;                 ///< share of the pixels with a colour in the file; the others are white
@@ -502,10 +507,10 @@ struct Drape {
 
 /// Reads an image of 8 bits (grey, a palette, or red green blue; alpha 0 and nodata are no colour) and resamples it
 /// bilinearly to the raster's area, from any CRS and grid. `size`: pixels on the longer side; 0: as many as the file
-/// has on the raster, at most 8192. An image without georeference is stretched over a raster without one, and, with a
-/// warning, over any raster with as many samples as it has pixels. Uses GDAL. Fails with kInput for a missing file, an
-/// image not of 8 bits or not on the raster, a CRS without a transformation, and otherwise if one of the two has no
-/// georeference.
+/// has on the raster, at most 8192. An image without georeference is stretched over a raster without georeference or,
+/// with a warning, over any raster with as many samples as the image has pixels. Uses GDAL. Fails with kInput for a
+/// missing file, an image not of 8 bits or not on the raster, a CRS without a transformation, and in other cases where
+/// image or raster has no georeference.
 Result<Drape> read_drape(const std::string& path, const RasterInfo& raster, int cols, int rows, int size = 0,
                          const Run& run = {});
 

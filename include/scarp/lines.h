@@ -31,22 +31,22 @@ enum class LineRole {
 
 inline constexpr std::uint32_t kNoPolygon = 0xffffffff;
 
-/// How a mesh treats a line as a constraint (Features::breaklines).
+/// The treatment of a line in a mesh (Features::breaklines).
 enum class LineKind : std::uint8_t {
   kBreakline,  ///< remains a chain of edges
-  kRiver,      ///< the same, but yields
-  /// The following are found in the raster. They are inserted with all other lines before the surface is refined, in
-  /// the greedy order. kWall and kRidge lines are only a start: efforts above fast may change their edges, and may
-  /// remove their vertices, or move them if vertices are free. These lines do not change if high effort must keep
-  /// vertices on samples.
+  kRiver,      ///< the same, but yields to other lines
+  /// Lines of the following kinds are found in the raster. Like all other lines, they are inserted before the surface
+  /// is refined in the greedy order. Efforts above fast may change edges of kWall and kRidge lines, remove their
+  /// vertices and, if vertices are free, move vertices. High effort with vertices on samples does not change these
+  /// lines.
   kWall,       ///< along the top or foot of a wall (detect_cliffs()): yields, and never changes a sample
   kRidge,      ///< a ridge or valley (detect_ridges()), a preference
   kKeptRidge,  ///< a ridge or valley whose edges remain
 };
 
 struct Line {
-  /// x, y, z; at least two points, successive ones differ. x and y are finite. z is finite (hard line) or NaN, an
-  /// unknown height (soft line). A ring ends with its first point and has at least four.
+  /// x, y, z; at least two points; successive points differ. x and y are finite. z is finite (hard line) or NaN, an
+  /// unknown height (soft line). A ring has at least four points and ends with its first.
   std::vector<std::array<double, 3>> points;
   LineRole role = LineRole::kLine;
   std::uint32_t polygon = kNoPolygon;  ///< number of the polygon of this ring, from 0 in a LineSet
@@ -54,7 +54,7 @@ struct Line {
   LineKind kind = LineKind::kBreakline;
 
   bool is_ring() const { return role != LineRole::kLine; }
-  /// True if this line adopts the height of hard lines that do not yield; it never causes a conflict.
+  /// True if this line adopts the height of hard lines that do not yield. It then never causes a conflict.
   bool yields() const { return kind == LineKind::kRiver || kind == LineKind::kWall; }
 };
 
@@ -63,10 +63,9 @@ inline bool is_ridge_line(const Line& line) {
   return line.kind == LineKind::kRidge || line.kind == LineKind::kKeptRidge;
 }
 
-/// The content of a vector layer.
 struct LineSet {
   std::vector<Line> lines;  ///< in the order of the layer; a polygon's outer ring precedes its holes
-  std::string path, layer;  ///< their source, for messages
+  std::string path, layer;  ///< source of the lines, for messages
   std::string format;       ///< "GPKG", "GeoJSON", …
   std::string crs;          ///< CRS of the layer: "EPSG:32611", WKT, or empty
   std::uint32_t polygons = 0;
@@ -89,17 +88,17 @@ struct LineConstraints {
   LineConflict conflict = LineConflict::kError;
 };
 
-/// Polygons that limit the surface to their interior and rings. Within a polygon, rings count even-odd: holes,
-/// self-intersecting rings and bow-ties are allowed, and parts enclosed twice are outside.
+/// Polygons that limit the surface to their interior and rings. Within a polygon, rings follow the even-odd rule:
+/// holes, self-intersecting rings and bow-ties are allowed, and parts enclosed twice are outside.
 struct Cutline {
   /// Rings of polygons, from read_lines() or close_rings(); their heights are ignored. EMPTY: no cut. Functions with a
-  /// cutline fail with kInput for a vertex more than 2^41 samples away, and name it.
+  /// cutline fail with kInput for a vertex more than 2^41 samples away, and name the vertex.
   std::vector<Line> rings;
   /// Map from samples to the coordinates of the rings, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
 };
 
-/// The breakline vertex, as given, farthest above or below the raster; distances of lines that are 0 everywhere count
+/// The given breakline vertex farthest above or below the raster. For lines with only heights of 0, distances count
 /// tenfold.
 struct FarthestLine {
   std::string name;         ///< name of the line; empty: no line has heights
@@ -107,7 +106,7 @@ struct FarthestLine {
   bool is_at_zero = false;  ///< all its heights are 0
 };
 
-// Functions to read lines and polygons from vector files, and to move the outlines of polygons.
+// Reading lines, and moving the outlines of polygons.
 
 struct ReadLinesOptions {
   /// The CRS of x and y, as RasterInfo::crs. DEFAULT: the layer's.
@@ -130,55 +129,55 @@ struct ReadLinesOptions {
 /// y are transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the requested
 /// CRS. Heights do not change; NaN heights are interpolated between the other heights of the line. A layer without CRS
 /// is assumed to be in the requested CRS. Points, features without geometry, and lines and rings of no extent are
-/// omitted and counted. Warnings report all of this.
+/// omitted and counted. Warnings report these cases.
 ///
 /// Error messages name the file, layer and feature. Fails with kInput for a missing file or layer, no suitable layer or
-/// several (which are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a vertex
-/// without coordinates in the requested CRS, a missing attribute, or an attribute that is not a finite number; with
-/// kUsage for a requested CRS unknown to GDAL; with kCancelled. Cost: a few tenths of a second for a million vertices
-/// of a GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
+/// several ones (which the message names), no lines in the layer, a coordinate that is not finite (z may be NaN:
+/// unknown), a vertex without coordinates in the requested CRS, a missing attribute, or an attribute that is not a
+/// finite number; with kUsage for a requested CRS unknown to GDAL; with kCancelled. Cost: a few tenths of a second for
+/// a million vertices of a GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
-/// The lines of several files as one set, without path and CRS; polygons are numbered across files. Fails as
+/// Reads lines of several files as one set, without path and CRS. Polygons are numbered across files. Fails as
 /// read_lines() for the first file that fails.
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
 
 /// Fails with kInput unless all lines are rings of polygons. The message names `user`, the option that needs polygons
-/// ("--water"), and `otherwise`, the option that accepts lines ("--rivers"), unless empty.
+/// ("--water"), and `otherwise`, the option that accepts lines ("--rivers"), if not empty.
 Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise = {});
 
-/// Like read_lines(), with heights in the unit of the values in the file of `raster`, before its z_scale and z_offset.
-/// Heights in another unit are converted, with a warning. Their unit is that in the name of their attribute
-/// ("elev_ft"), else that of the layer's vertical CRS. Same failures and cost.
+/// Like read_lines(), with heights in the unit of the values in `raster`'s file, before z_scale and z_offset. Heights
+/// in another unit are converted, with a warning. Their unit is in the name of the attribute ("elev_ft"), else in the
+/// layer's vertical CRS. Failures and cost: as read_lines().
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options,
                            const RasterInfo& raster);
 
 /// The union of polygons, with its outline moved inwards by `distance`, outwards if negative. Corners that move away
-/// become round, with arcs as chords of 90 / 8 degrees. `sample` is the side of a sample. Since edges far below a
-/// sample need many tiny triangles, vertices that the outline does not need within a 256th of a sample and an eighth of
-/// the distance are removed. For distances below a sample, corners remain pointed, at most twice as far away. `unit`:
-/// the lengths of one unit of x and of y, in the unit of `distance`, above 0. The result may be empty: polygons
-/// narrower than twice the distance vanish. Uses GDAL and GEOS, in double arithmetic. Fails with kUsage if the build
-/// lacks one of them, with kInput if GEOS fails.
+/// become round, with arcs as chords of 90 / 8 degrees. `sample` is the side of a sample. Edges much shorter than a
+/// sample need many tiny triangles, so vertices are removed where this moves the outline by at most a 256th of a sample
+/// and an eighth of the distance. For distances below a sample, corners remain pointed, at most twice the distance
+/// away. `unit`: the lengths of one unit of x and of y, in the unit of `distance`, above 0. The result may be empty:
+/// polygons narrower than twice the distance vanish. Uses GDAL and GEOS, in double arithmetic. Fails with kUsage if the
+/// build lacks GDAL or GEOS, with kInput if GEOS fails.
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
                                          const std::array<double, 2>& unit = {1, 1}, double sample = 0);
 
 // Cutlines: polygons at which the surface ends.
 
-/// Returns rings unchanged, and closed lines as separate polygons. Fails with kInput for an open line, and names it.
+/// Returns rings unchanged, and closed lines as separate polygons. Fails with kInput for an open line, and names the
+/// line.
 Result<std::vector<Line>> close_rings(std::vector<Line> lines);
 
-/// Result of mask_outside().
 struct MaskedOutside {
   std::uint64_t lost = 0;    ///< heights outside
   std::uint64_t kept = 0;    ///< heights within
-  bool has_surface = false;  ///< true if some cell of the grid has three or four heights within
+  bool has_surface = false;  ///< true if any cell of the grid has three or four heights within
   std::uint64_t bytes = 0;   ///< additional memory of the field's new source
 };
 
-/// Makes all samples outside the polygons nodata: a cut along the cells of the grid, for use where a cut along the
-/// polygons is not possible. A field not in memory gets a source that masks samples on reading; the field is read once,
-/// to count. If `info` has no range, it receives that of the heights before the cut. Fails as the field's source and
-/// with kCancelled. REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
+/// Makes all samples outside the polygons nodata: a cut along grid cells, for use where a cut along the polygons is not
+/// possible. A field with a source is read once, and gets a source that masks samples on reading. If field.info has no
+/// range, it receives the range of the heights before the cut. Fails as the field's source and with kCancelled.
+/// REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
 Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline,
                                    const ProgressCallback& progress = {});
 

@@ -1,5 +1,5 @@
-// Keep the mesh of a height field that changes many times a second: a robot's elevation map, a terrain that is dug or
-// painted, the surface of a simulation. An update makes only the cells anew that it touches.
+// Update the mesh of a height field that changes many times a second: a robot's elevation map, a terrain that is dug or
+// painted, the surface of a simulation. An update remakes only the cells that it touches.
 //
 // Example:
 //     const std::vector<float> flat(500 * 500, 0.0f), bump(50 * 50, 0.3f);
@@ -29,25 +29,26 @@
 namespace scarp {
 
 struct LiveOptions {
-  /// Vertical, in z units, at least 0: |mesh − sample| <= max_error at every sample, unless a budget needs more.
+  /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every sample, unless a budget
+  /// requires larger errors.
   double max_error = 0;
   Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
   /// Steps between samples along the side of a cell, 8 to 254. Small cells need less time and, above fast effort, more
-  /// triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which is 32 with kFast, else 64.
+  /// triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which means 32 with kFast, else 64.
   int cell = 0;
   /// Threads of an update that touches several cells, as Run::threads. Never changes the result.
   int threads = 1;
-  /// Place of the field's first sample on the lattice of cells; a lattice line of cells runs through sample (0, 0).
-  /// A field that was scrolled equals a new field at its place.
+  /// Place of the field's first sample on the lattice of cells, in samples; borders of cells run through (0, 0).
+  /// A scrolled field equals a new field at the same place.
   SampleAt place = {};
-  /// Budget: the largest number of triangles after every change. The cells' bounds rise and fall for it, one cell after
-  /// the other, in steps of 19 %; the bounds of any two cells differ by one step at most. LiveField::max_error() is the
-  /// result. Fields of 50 cells or more mostly use at least 98 % of the budget, unless fewer triangles keep max_error
-  /// or reproduce the samples; where one cell has many of the triangles, it may be less. Not with tolerances. DEFAULT:
-  /// none.
+  /// Budget: the max number of triangles after every change. The cells' error bounds follow the budget: they rise and
+  /// fall in steps of 19 %, one cell after the other, and differ by at most one step. LiveField::max_error() returns
+  /// the resulting error. Fields of 50 cells or more mostly use at least 98 % of the budget, or less if one cell has
+  /// many of the triangles. Fewer triangles are used if they satisfy max_error or reproduce the samples. Not allowed
+  /// with tolerances. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
-  /// LiveField::level() of another field of this size: equal samples then give equal meshes. The first search for the
-  /// budget is then omitted, unless the mesh exceeds it. DEFAULT: found from the heights.
+  /// LiveField::level() of another field of the same size. Equal samples then have equal meshes, and the first search
+  /// for the budget is omitted, unless the mesh exceeds the budget. DEFAULT: found from the heights.
   std::optional<std::int64_t> level = std::nullopt;
   /// The norm over heights and channels, as Goals::norm, for fields with channels.
   Norm norm = Norm::kSum;
@@ -58,22 +59,23 @@ struct LiveWindow {
   int col = 0, row = 0, cols = 0, rows = 0;
 };
 
-/// The mesh of a cell: LiveOptions::cell + 1 samples a side, of which the last row and column are also those of the
-/// next cells; fewer where the field ends. Immutable.
+/// The mesh of a cell. A cell has LiveOptions::cell + 1 samples a side, fewer where the field ends. Neighbouring cells
+/// share the row or column of samples between them. Immutable.
 struct LiveCell {
-  /// The cell's place in a renderer's buffer; at most one cell of the field has it. Slots count from 0 to
-  /// LiveField::slot_count() − 1 and stay the same while the field moves.
+  /// The cell's index in a renderer's buffer, 0 … LiveField::slot_count() − 1: unique in the field, and unchanged while
+  /// the field moves.
   std::uint32_t slot = 0;
-  std::uint64_t version = 0;  ///< the change that made it
+  std::uint64_t version = 0;  ///< number of the change that made this mesh
   SampleAt place = {};        ///< the cell's first sample, on the lattice of LiveOptions::place
-  /// Three for each vertex: columns east and rows north of the first sample (so y <= 0), and the height. Whole numbers,
-  /// or with kHigh eighths. Vertices on the cell's border are samples, and the neighbours have the same.
+  /// Three numbers for each vertex: columns east and rows north of the first sample (so y <= 0), and the height.
+  /// Columns and rows are whole numbers or, with kHigh, multiples of 1/8. Vertices on the cell's border are samples,
+  /// and shared with the neighbours.
   std::vector<float> positions;
-  /// Three for each triangle, counter-clockwise from above in these coordinates, in an order good for a GPU. Empty: the
+  /// Three indices for each triangle, counter-clockwise from above in these coordinates, ordered for a GPU. Empty: the
   /// cell has no surface.
   std::vector<std::uint16_t> triangles;
-  std::vector<float> channels;  ///< one for each vertex and channel of the field, vertex by vertex
-  double max_error = 0;         ///< measured; of the norm where the field has channels
+  std::vector<float> channels;  ///< one value for each vertex and channel of the field, vertex by vertex
+  double max_error = 0;         ///< measured; with channels, of the norm
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t triangle_count() const { return triangles.size() / 3; }
@@ -81,7 +83,7 @@ struct LiveCell {
 
 struct LiveChanges {
   std::uint64_t version = 0;                           ///< for the next call of changes()
-  std::vector<std::shared_ptr<const LiveCell>> cells;  ///< by slot
+  std::vector<std::shared_ptr<const LiveCell>> cells;  ///< sorted by slot
 
   std::uint64_t triangle_count() const {
     std::uint64_t count = 0;
@@ -90,33 +92,32 @@ struct LiveChanges {
   }
 };
 
-/// A height field and its mesh.
+/// Cells lie on a fixed lattice. A cell's mesh depends only on its samples, the validity of the samples around the
+/// cell, and the options. A cell's border is a locked border (Border): its line depends only on the border's samples
+/// and the validity of adjacent samples. So, after any sequence of changes and for any number of threads, the mesh is
+/// byte for byte that of a new field with the final samples at the same place. With a budget, the new field also needs
+/// the same level(). The level does not change while the number of triangles is within a certain range.
 ///
-/// Cells lie on a fixed lattice. A cell's mesh depends on its samples, on the validity of the samples around it, and on
-/// the options only; its border is a locked border (Border) whose line depends on the border's samples and the validity
-/// of those next to it. So, after any sequence of changes, the mesh has the same bytes as that of a new field with the
-/// final samples at the same place, for any number of threads. With a budget it also depends on level(), which stays
-/// while the count of triangles keeps within its range; the new field needs the same one.
+/// After each change, the guarantees of simplify() hold for every cell, and so for the field. The domain is that of
+/// simplify() for the whole field. Neighbouring cells share the vertices of their common border, so there are no
+/// cracks.
 ///
-/// Guarantee after each change: the guarantees of simplify() hold for every cell, hence for the field; the domain is
-/// that of simplify() for the whole field. Neighbouring cells share the vertices of their border: no cracks.
+/// NaN, infinities and HeightField::nodata are voids, also in updates. Tolerances are bounds of samples, as in
+/// Tolerances::values. The frame is affine. Fields with a source fail with kUsage.
+/// Channels have a value at every sample with a height. With channels, errors are norms as defined by HeightField and
+/// LiveOptions::norm.
 ///
-/// Samples: NaN, infinities and HeightField::nodata are voids, also in updates. Tolerances, if the field has them, are
-/// bounds of samples as in Tolerances::values. Frames: affine. Fields with a source fail with kUsage.
-/// Channels, if the field has them, have a value at every sample with a height; then errors are norms, as HeightField
-/// and LiveOptions::norm define them.
+/// Threads: one thread at a time may change the field; a second one gets an error. Meanwhile, any number of threads may
+/// call changes(), mesh(), max_error() and triangle_count(). These calls see the state before or after a change, and
+/// hold a lock only while they copy pointers. heights() and a change wait for each other.
 ///
-/// Threads: one thread at a time may change the field; a second one gets an error. Any number may call changes(),
-/// mesh(), max_error() and triangle_count() meanwhile: they see the state before or after a change, and a lock is held
-/// only while pointers are copied. heights() and a change wait for each other.
+/// Errors: kUsage for windows outside the field, arrays of the wrong size and budgets that no bound satisfies; kInput
+/// for heights without a channel's value; and those of simplify(). After an error, the field is unchanged.
 ///
-/// Errors: kUsage for windows outside the field, arrays of the wrong size and budgets that no bound keeps; kInput for
-/// heights without a channel's value; those of simplify(). The field is then unchanged.
-///
-/// Cost of a change: that of simplify() with Border::is_locked for each cell that it touches (four for a window of a
-/// cell's size); independent of the size of the field. Where the count of triangles leaves the range of a budget, other
-/// cells are made anew: mostly a few, after a change of the whole field all of them several times. That of scroll():
-/// the cells along the field's border. That of changes(): O(cells of the field).
+/// Cost of a change: that of simplify() with Border::is_locked for each cell that the change touches (four for a window
+/// of a cell's size), independent of the size of the field. If the number of triangles leaves its range for the budget,
+/// other cells are also remade: mostly a few, but after a change of the whole field all cells, several times. scroll()
+/// remakes the cells along the field's border. changes() costs O(cells of the field).
 /// Memory: 4 bytes a sample (8 with tolerances), 4 more for each channel, and the cells' meshes.
 class LiveField {
  public:
@@ -127,35 +128,36 @@ class LiveField {
   LiveField& operator=(LiveField&&) noexcept;
   ~LiveField();
 
-  /// Replaces the samples of a window, row by row, and their tolerances and all channels, if the field has them (none:
-  /// they stay). Equal samples make no cell anew.
+  /// Replaces the samples of a window, row by row. Also replaces their tolerances and all channels, unless these
+  /// arguments are empty. Equal samples remake no cell.
   Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {},
                       std::span<const std::span<const float>> channels = {});
   /// Replaces the height of one sample.
   Result<void> set(int col, int row, float height);
-  /// Moves the field over the ground, so many columns east and rows down; the samples that it then still covers stay
-  /// and are not copied. The others are voids until an update, without a tolerance of their own, with channels of 0.
+  /// Moves the field over the ground by `cols` columns east and `rows` rows down. Samples that the field still covers
+  /// do not change and are not copied. New samples are voids until an update, without tolerances, and with channels of
+  /// 0.
   Result<void> scroll(int cols, int rows);
 
-  /// The cells that changed after the version `since`, those that became empty included; after 0 all that have a
-  /// surface. A cell replaces the one that its slot had.
+  /// Returns the cells that changed after the version `since`, including those that became empty; for 0, all cells with
+  /// a surface. A cell replaces the previous cell of its slot.
   LiveChanges changes(std::uint64_t since = 0) const;
-  /// The cells as one mesh, with double positions, in coordinates that stay while the field moves: those of the frame
-  /// that it was made with. Vertices on borders of cells are shared. Judge it in frame().
+  /// All cells as one mesh with double positions, in the frame with which the field was created, even after scroll().
+  /// Vertices on borders of cells are shared. Use frame() to measure this mesh.
   Mesh mesh() const;
-  /// The largest error of a cell.
+  /// The largest error of all cells.
   double max_error() const;
   std::uint64_t triangle_count() const;
-  /// The state of the budget's search; meaningless without one.
+  /// The state of the search for the budget; meaningless without a budget.
   std::int64_t level() const;
   std::uint32_t slot_count() const;
 
   /// A copy of the current samples, row by row.
   std::vector<float> heights() const;
-  /// The place of the first sample now, on the lattice of LiveOptions::place.
+  /// The current place of the first sample, on the lattice of LiveOptions::place.
   SampleAt place() const;
-  /// The frame of the field where it lies now: sample (0, 0) is the first. Cell positions in it:
-  /// apply_affine(cell.place − place() + (x, −y)).
+  /// The frame of the field at its current place, where (0, 0) is the field's first sample. Positions of a cell in this
+  /// frame: apply_affine(cell.place − place() + (x, −y)).
   Frame frame() const;
   int cols() const;
   int rows() const;

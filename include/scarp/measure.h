@@ -1,5 +1,5 @@
-// Judge any mesh against its raster by brute force, regardless of its origin: its errors at all samples, its holes,
-// overlaps and angles. Measure the volumes of cut and fill between two meshes.
+// Judge a mesh from any program against its raster by brute force: its errors at all samples, its holes, overlaps and
+// angles. Also measure the volumes of cut and fill between two meshes.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
@@ -33,24 +33,24 @@ struct Cutline;
 struct MeasureOptions {
   /// A sample farther than this from every triangle (in samples, horizontally) is uncovered. A nearer sample is
   /// compared with the plane of the nearest triangle, or with the nearest point if the triangle is thinner than this.
-  /// Absorbs the rounding of positions in the file. DEFAULT: 1/256.
+  /// This tolerance absorbs the rounding of positions in the file. DEFAULT: 1/256.
   double coverage_tolerance = 1.0 / 256;
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;
-  /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: none are collected.
+  /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: none.
   std::optional<double> collect_above = std::nullopt;
   /// Empty, or cols·rows per-sample tolerances (+infinity: none). `Measurement::over_tolerance` counts the samples
-  /// whose error is above their tolerance; they are offenders. Borrowed. DEFAULT: empty.
+  /// whose error is above their tolerance; these are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
-  /// The same, read in windows, instead of `tolerance`. Borrowed. DEFAULT: none.
+  /// The same tolerances, read in windows, instead of `tolerance`. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
   /// The cutline of the mesh. Samples in a polygon, farther than 1/64 sample from its rings, must be covered. Samples
   /// nearer to the rings, on either side, are judged if covered. All others are not judged. Edges along the rings are
   /// not gaps. The rings are used as given, not as rounded in the mesh. For scattered points the cutline affects only
   /// gaps: remove points outside by drop_outside(). Borrowed. DEFAULT: null, the whole domain.
   const Cutline* cutline = nullptr;
-  /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. If its
-  /// border is one loop, no open edge is a gap. DEFAULT: false.
+  /// For scattered points: the mesh may end within their convex hull, as with PointOptions::boundary_length. If the
+  /// mesh's border is one loop, no open edge is a gap. DEFAULT: false.
   bool inlets = false;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
   /// where the sample is nodata or uncovered. The span is valid during the call only.
@@ -65,9 +65,9 @@ struct Offender {
 };
 
 /// Each sample is counted once; a sample on a shared edge counts with the larger error of its triangles. Errors are
-/// vertical, mesh − sample, in z units. In a frame in space they are distances along the sample's vertical to the
-/// triangle that this line meets. If there is none, they are distances to the nearest point of the triangle that covers
-/// the sample on the map.
+/// vertical, mesh − sample, in z units. In a frame in space, an error is the distance along the sample's vertical to
+/// the triangle that this line meets. If the vertical meets none, the error is the distance to the nearest point of the
+/// triangle that covers the sample on the map.
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
@@ -78,7 +78,7 @@ struct Measurement {
   std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
   HeightRange heights;        ///< range of all valid samples: judged, uncovered, stray and cut off
   std::uint64_t nodata_cells_covered =
-      0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
+      0;  ///< nodata cells (or nodata halves of cells) whose centre the mesh covers
 
   std::uint64_t over_tolerance = 0;                  ///< covered samples above MeasureOptions::tolerance
   double max_error = 0;                              ///< largest |error|
@@ -88,24 +88,25 @@ struct Measurement {
   double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
 
   // Topology and shape; zero without MeasureOptions::topology.
-  double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above (the centre)
+  double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above (in space:
+                                              ///< above the centre)
   std::array<double, 3> angle_percentiles{};  ///< P1, P5, P50 of the triangles' smallest angles, degrees
-  std::uint64_t down_facing = 0;  ///< triangles clockwise from above, on the map or in space; in an open mesh they are
-                                  ///< flipped
+  std::uint64_t down_facing = 0;  ///< triangles clockwise from above, on the map or in space; in an open mesh, flipped
+                                  ///< triangles
   std::uint64_t degenerate = 0;   ///< triangles without area in 3-D
   std::uint64_t misoriented_edges = 0;   ///< edges whose two triangles run along them in the same direction
   std::uint64_t non_manifold_edges = 0;  ///< edges with more than two triangles
   std::uint64_t open_edges = 0;          ///< edges with one triangle
   std::uint64_t border_loops = 0;        ///< closed loops that the open edges form
   std::uint64_t t_junctions = 0;         ///< vertices inside an open edge of another triangle
-  /// Open edges of an open mesh with a part of the domain on their outer side: the mesh has a hole there. Lattice lines
+  /// Open edges of an open mesh with a part of the domain on their outer side, where the mesh has a hole. Lattice lines
   /// cut each edge into pieces. Each piece has a test point next to its middle, 1/64 sample outside the edge (4
   /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are
   /// omitted. A missing part of the domain that touches the rest only at corners has no such edge, and is not counted
   /// here.
   std::uint64_t gaps = 0;
   std::uint64_t overlaps =
-      0;                ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
+      0;                ///< pairs of triangles whose interiors overlap seen from above (if closed, only up-facing)
   bool closed = false;  ///< no open edges: a solid; heights are judged on its up-facing triangles
 
   std::vector<Offender>
@@ -119,11 +120,11 @@ struct Measurement {
   }
 };
 
-/// Resamples the mesh: its heights at the samples of the field's grid, row-major (Terra's `dem`). NaN where the sample
-/// is nodata or uncovered. At samples on two triangles, the one with the larger error counts, as in measure(). Same
-/// failures and cost as measure(), and 8 bytes a sample.
+/// Returns the heights of the mesh at the samples of the field's grid, row-major (Terra's `dem`); NaN where the sample
+/// is nodata or uncovered. At samples on two triangles, the triangle with the larger error counts, as in measure().
+/// Failures and cost are those of measure(), with 8 more bytes a sample.
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads = 1);
-/// The same row by row, from the top; the span is valid during the callback only. Memory: as measure().
+/// The same heights row by row, from the top; the span is valid during the callback only. Memory: as measure().
 Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
                            const std::function<void(int row, std::span<const float> heights)>& on_row, int threads = 1);
 
@@ -133,17 +134,17 @@ Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
 /// with a source is read in bands of rows, with two bands in memory for each thread. Cost: O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
-/// Fills the topology and shape in `result`, a measurement of the same mesh without them, such as
-/// Simplified::measurement. Errors of samples are not measured. Reads the members cutline, coverage_tolerance and run
-/// of `options`. Fails as measure(). Cost: O(triangles).
+/// Adds topology and shape to `result`, a measurement of the same mesh without these, such as Simplified::measurement.
+/// Errors of samples are not measured. Reads the members cutline, coverage_tolerance and run of `options`. Fails as
+/// measure(). Cost: O(triangles).
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result);
 
-/// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders are
+/// Judges a mesh against points by brute force. Measurement::samples counts points; max_error_at and offenders have
 /// {index of the point, 0}; on_row is called once, with all points. Duplicates are first removed by the given policy.
 /// The unit of coverage_tolerance is the mean distance between points, √(area / points). Gaps are open edges within the
-/// convex hull (see MeasureOptions::inlets). MeasureOptions::tolerance has one for each point; errors may exceed it by
-/// the judge's own rounding, 1e-12 of the heights. Same failures and cost as measure().
+/// convex hull (see MeasureOptions::inlets). MeasureOptions::tolerance has one tolerance for each point; errors may
+/// exceed it by the rounding of this function, 1e-12 of the heights. Failures and cost: as measure().
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 
@@ -160,26 +161,27 @@ struct Volumes {
 
   /// The surplus of the cut: the integral of first − second over the common area.
   double net() const { return cut - fill; }
-  /// From the second surface to the first.
+  /// The volumes from the second surface to the first.
   Volumes reversed() const { return {fill, cut, common_area, to_outside, from_outside}; }
 };
 
-/// The volumes between two surfaces, from the ground before to the ground after. Each triangle of one surface is
-/// clipped by those of the other, and an exact formula gives the volume above each part: neither surface is sampled.
-/// Sums of doubles are compensated; the rounding is about 1e-15 of the largest |z| times the common area. A mesh
-/// against itself has volumes of exactly 0. Swapped meshes give the same bits, with cut and fill exchanged. Outside
-/// areas below 1e-12 of a surface count as 0. Run::threads and Run::progress are used; threads never change the result.
+/// The volumes between two surfaces, from the ground before to the ground after. Triangles of one surface are clipped
+/// by those of the other. An exact formula computes the volume above each part, without sampling. Sums of doubles are
+/// compensated; the rounding is about 1e-15 of the largest |z| times the common area. A mesh against itself has volumes
+/// of exactly 0. Swapped meshes have the same volumes bit for bit, with cut and fill exchanged. Outside areas below
+/// 1e-12 of a surface count as 0. Run::threads and Run::progress are used; threads never change the result.
 ///
 /// Both meshes must be in one frame: x, y and z are compared as Mesh::vertex() returns them. Metadata and bounds are
-/// ignored: if the heights of the surfaces are known to ±E₁ and ±E₂, each of cut, fill and net is known to ±(E₁ + E₂) ·
+/// ignored. If the heights of the surfaces are known to ±E₁ and ±E₂, each of cut, fill and net is known to ±(E₁ + E₂) ·
 /// common_area. Meshes without common area have volumes of 0.
 ///
 /// Fails with kInput as measure(), and for a mesh with more than one height at a place: a closed solid, a triangle that
-/// stands upright or faces down (the message names it), triangles that overlap seen from above. Triangles without area
-/// in space are ignored. Cost: O(n log n + overlapping pairs of triangles). Memory: some 100 bytes a triangle.
+/// stands upright or faces down (the message names the triangle), triangles that overlap seen from above. Triangles
+/// without area in space are ignored. Cost: O(n log n + overlapping pairs of triangles). Memory: some 100 bytes a
+/// triangle.
 Result<Volumes> measure_volume(const Mesh& from, const Mesh& to, const Run& run = {});
-/// The same from a surface to an unbounded level: cut is the ground above the level, fill the volume missing below it.
-/// Fails with kUsage for a level that is not finite. Cost: O(n).
+/// Measures the volumes from a surface to an unbounded level: cut is the ground above the level, fill the volume
+/// missing below the level. Fails with kUsage for a level that is not finite. Cost: O(n).
 Result<Volumes> measure_volume(const Mesh& from, double level, const Run& run = {});
 
 }  // namespace scarp

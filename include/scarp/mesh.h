@@ -24,8 +24,8 @@ namespace scarp {
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
 /// Meshes of simplify() have an origin with z = 0, so that z is the height of the sample. Their x and y are float32
-/// values unless the options request double. In frames in space "up" is away from the earth instead. Meshes read from
-/// files keep the file's precision, so that measuring rounds nothing.
+/// values unless the options request double. In frames in space, "up" means away from the earth. Meshes read from files
+/// keep the file's precision, so that measurements are not rounded.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
@@ -34,7 +34,7 @@ struct Mesh {
   std::vector<float>
       uvs;  ///< empty, or 2 per vertex: position in the raster's image, (0, 0) top left, (1, 1) bottom right
   std::vector<std::uint8_t> colors;  ///< empty, or red, green, blue per vertex, sRGB as in an image
-  int channel_count = 0;             ///< number of additional values per vertex
+  int channel_count = 0;             ///< additional values per vertex
   std::vector<float> channels;       ///< channel_count per vertex, in the order of HeightField::channels
   /// Description of the mesh, for file headers: "generator", "command", "frame", "crs", … Written to every format that
   /// has a field for it, and read back.
@@ -54,21 +54,21 @@ struct Mesh {
 void optimize_order(Mesh& mesh, int threads = 1);
 
 /// Turns the mesh y up: (x, y, z) becomes (x, z, −y), also for normals, and metadata["up"] becomes "y". undo_y_up()
-/// reverses this if is_y_up(); metadata["up"] is then "z". Both are exact. All other functions except writers expect
-/// meshes with z up.
+/// reverses this if is_y_up(); metadata["up"] is then "z". Both functions are exact. All other functions except writers
+/// expect meshes with z up.
 void turn_y_up(Mesh& mesh);
 void undo_y_up(Mesh& mesh);
 bool is_y_up(const Mesh& mesh);
 
-/// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
-/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices inside a straight border along
-/// x or y get no vertex below them. A part with n border vertices, c vertices below them, and h holes gets n + c
-/// triangles for its walls and c + 2h − 2 for its base. Where two parts of the domain meet in a single point, the
+/// Closes an open terrain mesh into a solid with a flat base at z = `base` (absolute) and vertical walls along all
+/// border edges. Triangles face outward, and each edge has exactly two triangles. Border vertices inside a straight
+/// border along x or y get no vertex below them. A part with n border vertices, c vertices below them, and h holes gets
+/// n + c triangles for its walls and c + 2h − 2 for its base. Where two parts of the domain meet in a single point, the
 /// vertex is duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
-/// show four walls along that vertical edge (build_solid() separates them). Normals are removed; uvs, colours and
-/// channels of a new vertex are those of the vertex above it. REQUIRES: every edge has one or two triangles, all
-/// counter-clockwise from above; base below every vertex. Returns false (mesh unchanged) if the base is not below every
-/// vertex, in float32 offsets too. Cost: O(n log n).
+/// show four walls along that vertical edge (build_solid() separates them). Normals are removed; a new vertex has the
+/// uvs, colours and channels of the vertex above it. REQUIRES: every edge has one or two triangles, all
+/// counter-clockwise from above; base below every vertex. Returns false, without change, if the base is not below every
+/// vertex, also in float32 offsets. Cost: O(n log n).
 bool add_base(Mesh& mesh, double base);
 
 // From a terrain to a printable solid: closed, and placed in millimetres.
@@ -88,10 +88,11 @@ void place_mesh(Mesh& mesh, const Placement& placement);
 bool undo_placement(Mesh& mesh);
 
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
-/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all except the first are moved
-/// away from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the base is
-/// not below the lowest vertex (names its height), and with kPromise if the mesh is too fine for its size: rounding
-/// merges vertices, so that the result is not a closed 2-manifold. REQUIRES: as add_base(). Cost: O(n log n).
+/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all parts except the first are
+/// moved away from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the
+/// base is not below the lowest vertex (the message names its height), and with kPromise if the mesh is too fine for
+/// its size: rounding merges vertices, so that the result is not a closed 2-manifold. REQUIRES: as add_base(). Cost:
+/// O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
 /// Properties of a solid for readers that round positions to float32 and merge equal positions, as STL readers do.
@@ -103,7 +104,7 @@ struct SolidFacts {
   std::uint64_t parts = 0;             ///< parts not connected by edges
   std::uint64_t inside_out = 0;        ///< parts whose volume is not positive
   double volume = 0;
-  std::array<double, 3> low{}, high{};  ///< box of all vertices, the mesh's origin included
+  std::array<double, 3> low{}, high{};  ///< box of all vertices, in absolute coordinates
 
   /// True if the mesh is a closed 2-manifold that faces outward.
   bool is_solid() const {
@@ -132,9 +133,9 @@ struct Contour {
 /// A point on the edge from a, the lower end, to b is a + (b − a) · (height − z of a) / (z of b − z of a) in double. It
 /// is the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
 /// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower. A hollow
-/// at the height has no line, and a ridge has one line around it. A single vertex or edge at the height with lower
-/// ground around it is omitted. No line branches, and lines touch only at vertices. Each line is closed, or ends on the
-/// border of the mesh or at an edge without exactly two triangles in opposite directions.
+/// whose bottom is at the height has no line; a ridge has one line around it. A single vertex or edge at the height
+/// with lower ground around it is omitted. No line branches, and lines touch only at vertices. Each line is closed, or
+/// ends on the border of the mesh or at an edge without exactly two triangles in opposite directions.
 ///
 /// Lines are ordered by height, then by the first triangle that they cross. An open line begins at the end from which
 /// the ground rises on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval

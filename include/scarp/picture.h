@@ -40,10 +40,10 @@ struct PreviewOptions {
 };
 
 /// Draws a hillshade of the field with the mesh's edges and the marks, in the proportions on the ground. Edges of
-/// triangles of only a few pixels fade. Nodata is white. Tints show heights; below 0 they are blue, except in fields
-/// without a georeference. Pictures of 300 pixels and more have a legend below. Streamed samples are read once, from
-/// the top. Memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage for a frame in space,
-/// and as the field's source does.
+/// triangles with only a few pixels fade. Nodata is white. Tints show heights; heights below 0 are blue, except in
+/// fields without a georeference. Pictures of 300 pixels and more have a legend below. Streamed samples are read once,
+/// from the top. Memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage for a frame in
+/// space, and as the field's source does.
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
 
 struct ErrorMapOptions {
@@ -54,10 +54,10 @@ struct ErrorMapOptions {
   std::string title = {};            ///< above the map
 };
 
-/// Map of signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, blue below and red
-/// above the samples, with a scale from −limit to +limit in z units.
+/// Draws signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, with a scale from −limit
+/// to +limit in z units. The mesh is below the samples where the map is blue, above where it is red.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, const ErrorMapOptions& options = {});
-/// The same map from errors added row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
+/// Draws the same map from errors added row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
 class ErrorMap {
  public:
   ErrorMap(int cols, int rows, ErrorMapOptions options = {});
@@ -72,9 +72,9 @@ class ErrorMap {
   double largest_ = 0;
 };
 
-/// Draws the mesh with one pixel for each sample, Gouraud-shaded: its colours interpolated in each triangle, or its
-/// hillshade without colours. White outside the mesh. REQUIRES: the mesh lies in the field's frame, which is not in
-/// space.
+/// Draws the mesh with one pixel for each sample, Gouraud-shaded: its colours or, without colours, its hillshade is
+/// interpolated in each triangle. Pixels outside the mesh are white. REQUIRES: the mesh lies in the field's frame,
+/// which is not in space.
 Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
 
 /// Channels as a picture: three as red, green, blue, else the first as grey. 8-bit values do not change, and others are
@@ -90,7 +90,7 @@ double find_psnr(const Picture& a, const Picture& b);
 /// Pictures side by side, aligned at the top, with white gaps of `gap` pixels.
 Picture place_side_by_side(std::span<const Picture> pictures, int gap = 8);
 
-/// The edges of the mesh seen from above, to scale, north up, each drawn once. Text; deterministic.
+/// Draws the edges of the mesh seen from above, to scale, north up, each once. Returns deterministic text.
 std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
 std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 

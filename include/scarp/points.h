@@ -1,4 +1,4 @@
-// Make a mesh of scattered points, which read_points() of io.h reads.
+// Make a mesh from scattered points, which read_points() of io.h reads.
 //
 // Example:
 //     SCARP_TRY(const auto& survey, scarp::read_points("survey.csv"));
@@ -27,7 +27,7 @@
 namespace scarp {
 
 /// The middle of the points' extent, rounded so coarsely that offsets from it are exact: the origin of a local frame.
-/// REQUIRES: some points, finite.
+/// REQUIRES: at least one point, all finite.
 std::array<double, 2> local_origin(const PointSet& points);
 
 /// Appends the points and lines of another set, with its counts and warnings. Fails with kInput if the sets differ in
@@ -48,37 +48,38 @@ void sort_points(PointSet& points);
 std::uint64_t drop_spikes(double most, int threads, PointSet& points);
 
 struct SimplifiedPoints {
-  Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
+  Simplified simplified;         ///< its measurement holds errors at the given points, and `samples` counts points
   std::uint64_t points = 0;      ///< number given
-  std::uint64_t duplicates = 0;  ///< number of points dropped for another one with equal x and y
+  std::uint64_t duplicates = 0;  ///< points dropped for another one with equal x and y
   std::uint64_t on_hull = 0;     ///< corners of the hull, convex or concave
   double lattice_step = 0;       ///< step of the integer lattice, in units of x and y
   std::uint64_t flat = 0;        ///< triangles whose corners lie on lines at one height
-  std::uint64_t loose = 0;       ///< pieces of lines that are not edges, since they cross others of the same height
+  std::uint64_t loose = 0;       ///< pieces of lines that are not edges, since they cross other pieces of the same
+                                 ///< height
   HullFit hull_fit;              ///< set without boundary_length and lines
 };
 
 /// Adds lines, in the coordinates of the points, as edges of the mesh: their vertices become points. A vertex without a
-/// height (NaN) gets that of the Delaunay triangulation of the given points or, beyond their hull, that of the nearest
-/// place on the hull. `duplicates`: the points that count at each place. Returns the number of these vertices beyond
-/// the hull. Fails with kInput for points without a surface. Cost: O(vertices), with vertices without a height expected
-/// O(n log n) for n points.
+/// height (NaN) gets the height of the Delaunay triangulation of the given points or, beyond their hull, of the nearest
+/// place on the hull. `duplicates`: the points that count at each place. Returns the number of vertices without a
+/// height beyond the hull. Fails with kInput for points without a surface. Cost: O(vertices); if vertices lack heights,
+/// expected O(n log n) for n points.
 Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points,
                                 DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
 /// A lake that level_lakes() made.
 struct PointLake {
   double level = 0;           ///< a float32; NaN for a lake beyond the points, which is omitted
-  std::uint64_t dropped = 0;  ///< number of points dropped in it
-  std::uint64_t beyond = 0;   ///< vertices of its shore beyond the points' hull, which the surface then reaches
+  std::uint64_t dropped = 0;  ///< points dropped in it
+  std::uint64_t beyond = 0;   ///< vertices of its shore beyond the points' hull; the surface extends to these
 };
 
 /// Makes lakes from polygons: drops the points in them and adds their rings, including holes, as lines at one height,
-/// so that all triangles of a lake are level. That height is a percentile, 0 … 100, of the heights along the rings in
-/// the Delaunay triangulation of all points; lakes that meet at a vertex share one height. Call it after add_lines().
+/// so that all triangles of a lake are level. This height is a percentile, 0 … 100, of the heights along the rings in
+/// the Delaunay triangulation of all points. Lakes that meet at a vertex share one height. Call it after add_lines().
 /// Fails with kInput for points without a surface, for a line with a vertex in a lake at another height, and for a lake
-/// around all points. REQUIRES: polygons that do not cross or overlap, as inset_polygons() returns. Cost: expected O(n
-/// log n).
+/// that contains all points. REQUIRES: polygons that do not cross or overlap, as inset_polygons() returns. Cost:
+/// expected O(n log n).
 Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double percentile, PointSet& points,
                                            DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
@@ -86,25 +87,26 @@ Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double p
 /// measure_points() for a mesh with such lakes.
 std::uint64_t drop_inside(std::span<const Line> rings, PointSet& points);
 
-/// Unit normals for Mesh::normals of a mesh in the coordinates of the points. They are computed from differences of
-/// heights over the mean distance between points, in the Delaunay triangulation of the points. Near the hull, and for
-/// points with lines, they are normals of the mesh's triangles around the vertex, by area. Fails with kInput for points
-/// without a surface. Cost: expected O(n log n).
+/// Unit normals for Mesh::normals of a mesh in the coordinates of the points. They are computed from height differences
+/// over the mean distance between points, in the Delaunay triangulation of the points. Near the hull, and for points
+/// with lines, each is the area-weighted mean normal of the mesh's triangles around its vertex. Fails with kInput for
+/// points without a surface. Cost: expected O(n log n).
 Result<std::vector<float>> point_normals(const PointSet& points, const Mesh& mesh,
                                          DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
-/// The result of cut_to_boundary().
 struct BoundaryCut {
-  std::uint64_t points_outside = 0;  ///< number of points dropped
+  std::uint64_t points_outside = 0;  ///< points dropped
   std::uint64_t corners = 0;         ///< points added: corners of the boundary, and its crossings with lines
-  std::uint64_t corners_beyond = 0;  ///< corners beyond the points' convex hull, with the height of its nearest place
-  double farthest = 0;               ///< distance of the farthest of them, in units of x and y
+  std::uint64_t corners_beyond = 0;  ///< corners beyond the points' convex hull, with the height at the hull's nearest
+                                     ///< place
+  double farthest = 0;               ///< largest distance of such a corner from the hull, in units of x and y
 };
 
-/// Ends the surface at polygons, given as rings: drops the points outside, cuts lines there, and sets
-/// PointSet::boundary. The heights of its corners are those of the Delaunay triangulation of the points given. Call it
-/// once, after add_lines(). Corners are added on edges that differ from the surface by more than `tolerance`, such as
-/// half the max error. Fails with kInput without a ring and for points without a surface. Cost: expected O(n log n).
+/// Ends the surface at polygons, given as rings: drops the points outside, cuts lines at the rings, and sets
+/// PointSet::boundary. Corners of the boundary have the heights of the Delaunay triangulation of the given points.
+/// Corners are added on edges that differ from the surface by more than `tolerance`, such as half the max error. Call
+/// it once, after add_lines(). Fails with kInput without a ring and for points without a surface. Cost: expected O(n
+/// log n).
 Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double tolerance, PointSet& points,
                                     DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
@@ -112,22 +114,22 @@ Result<BoundaryCut> cut_to_boundary(std::span<const Line> rings, double toleranc
 /// before measure_points() for a mesh with such a boundary: see MeasureOptions::cutline.
 std::uint64_t drop_outside(std::span<const Line> rings, PointSet& points);
 
-/// A tolerance for each point, as PointOptions::tolerances: t in a region of tolerance t, t + (beyond - t) · min(1, d /
-/// falloff) at a distance d from it, in units of x and y; with a falloff of 0, `beyond` everywhere outside. The
-/// smallest of several regions counts. Tolerances are rounded down to float32. `found`: for each region, true if it
-/// gives any point a smaller tolerance; may be null. REQUIRES: falloff, beyond >= 0; a finite `beyond` with a falloff.
-/// Cost: O(points · (1 + edges near the point)).
+/// Computes a tolerance for each point, for PointOptions::tolerances. It is t in a region of tolerance t, and t +
+/// (beyond - t) · min(1, d / falloff) at a distance d from the region, in units of x and y. With a falloff of 0, it is
+/// `beyond` everywhere outside. Of several regions, the smallest tolerance counts. Tolerances are rounded down to
+/// float32. `found`: for each region, true if it decreases any point's tolerance; may be null. REQUIRES: falloff,
+/// beyond >= 0; a finite `beyond` with a falloff. Cost: O(points · (1 + edges near the point)).
 std::vector<float> region_tolerances(std::span<const Region> regions, const PointSet& points, double falloff,
                                      double beyond, std::vector<bool>* found = nullptr);
 
-/// The goals, and the means to reach them. At least one goal is required; the first one reached ends the run.
+/// At least one goal is required; the first one reached ends the run.
 struct PointOptions {
   /// |mesh − z| <= max_error at every point, finite and at least 0. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// Upper bounds, as in SimplifyOptions. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
-  /// Round positions to float32, as GLB and STL hold them; else they are double. DEFAULT: true.
+  /// True: positions are rounded to float32, as in GLB and STL; false: double. DEFAULT: true.
   bool float32_positions = true;
   /// False: a budget that ends the run returns the last mesh, though an earlier one may have been better. DEFAULT:
   /// true.
@@ -136,50 +138,50 @@ struct PointOptions {
   /// Above 0, in units of x and y: the mesh ends at a concave hull. The hull's edges are at most this long, except
   /// where a longer one is needed to connect the points. DEFAULT: the mesh ends at the convex hull.
   std::optional<double> boundary_length = std::nullopt;
-  /// The work that follows refinement: effort, vertices, min_shape and shape, as for a raster; the rest does not apply.
-  /// `shape` needs a max error and no budget; its vertices get the height of the surface. Free vertices lie on a
-  /// lattice of 2^22 steps or more over the extent. A max error of 0, or one not above the rounding of heights to
+  /// The work after refinement: effort, vertices, min_shape and shape, as for a raster. Other members do not apply.
+  /// `shape` needs a max error and no budget; vertices added for it get the height of the surface. Free vertices lie on
+  /// a lattice of 2^22 steps or more over the extent. A max error of 0, or one not above the rounding of heights to
   /// float32, allows fast effort only. DEFAULT: normal effort.
   Quality quality = {};
   /// |mesh − z| <= tolerance at every point, in addition to max_error. One tolerance for each point, at least 0;
-  /// +infinity: none. Of points at one place, the tolerance of the one that counts is used, with kMean that of the
+  /// +infinity: none. For points at one place, the tolerance of the point that counts is used; with kMean, that of the
   /// first. Needs max_error and no budget. Borrowed. DEFAULT: empty.
   std::span<const float> tolerances = {};
   Run run = {};  ///< threads, progress, and a time limit
 };
 
-/// Inserts scattered samples greedily (which section 2 of the 1995 paper only mentions), then removes and repairs
+/// Inserts scattered samples greedily (which section 2 of the 1995 paper only mentions), then removes vertices
 /// according to the effort, as on a raster. With a budget and an effort above fast, it searches for an error. The
-/// domain is the set's own boundary, else the convex hull, or with `boundary_length` the chi-shape of Duckham et al.
-/// (2008). This shape begins as the Delaunay triangulation of all points. Triangles whose boundary edge exceeds
+/// domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham et al. (2008); else the
+/// convex hull. The chi-shape begins as the Delaunay triangulation of all points. Triangles whose boundary edge exceeds
 /// boundary_length are removed, the longest edge first. A triangle is kept if without it the domain would fall apart or
-/// lose a point, or its boundary would not be a simple polygon. All corners of that polygon are vertices. Each triangle
-/// stores the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30 steps. It is the
-/// coarsest lattice that contains the given decimals exactly if there is one, else the finest with a power of two as
-/// its step. With an effort above fast, the decimals' steps are divided by a power of two, or are a power of two, at
-/// least 2^22 over the extent. The same holds with float32_positions and lines. Different points are never merged: the
-/// call fails if the lattice cannot separate two points. Among points of equal error, the northernmost, then
-/// westernmost one is inserted. For points on a grid, fast effort selects the same vertices as simplify() for the
+/// lose a point, or the domain's boundary would not be a simple polygon. All corners of this polygon are vertices. Each
+/// triangle stores the list of its points. Coordinates are snapped to an integer lattice of up to 2^30 steps: the
+/// coarsest lattice that contains the given decimals exactly; if there is none, the finest lattice whose step is a
+/// power of two. With an effort above fast, or with float32_positions and lines, the step is that of the decimals
+/// divided by a power of two, or a power of two; the extent then has at least 2^22 steps. Different points are never
+/// merged: the call fails if the lattice cannot separate two points. Among points of equal error, the northernmost,
+/// then westernmost one is inserted. For points on a grid, fast effort selects the same vertices as simplify() for the
 /// raster, except for ties.
 ///
 /// A line becomes a chain of edges through some of its points, including its ends (for a ring, at least three points).
 /// With PointLine::keeps_vertices, the chain passes through all points. Chains do not cross, so no triangle crosses
 /// one. Each point of the line between two points of its chain is within max_error of the mesh. Triangles between
-/// points of equal height on lines, as in the bend of a contour, are removed by flips of edges where the other points
-/// allow it; the others are counted (`flat`). Points of lines that the lattice cannot separate share a vertex, but all
-/// of them count.
+/// points of equal height on lines, as in the bend of a contour, are removed by edge flips where the other points allow
+/// this; remaining ones are counted (`flat`). Points of lines that the lattice cannot separate share a vertex, but each
+/// of them counts.
 ///
 /// Guarantees that |mesh − z| is at most max_error, and at most the point's tolerance, at every point that is not
 /// dropped as a duplicate. This holds at the point's given coordinates, for the positions stored in the mesh. Vertices
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
-/// (no goal, a max_error out of range, a budget below what the hull needs, a boundary_length that is not above 0, a
-/// budget or a boundary_length with lines, a budget with goals for shapes or such goals out of range, tolerances of
-/// another number than the points, below 0, NaN or with a budget, the dominant order), with kInput (lines that meet at
-/// different heights, which are named, fewer than 3 places, all places on one line, a value that is not finite or
-/// beyond 1e100, an extent below 1e-100, two points nearer to each other than about 2^-30 of the extent, which are
-/// named, as is the far point that makes the extent so large), with kPromise if float32 positions cannot satisfy the
-/// bound, with kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log n); some 50 to 60 bytes
-/// a point in addition to the points themselves.
+/// for no goal; a max_error out of range; a budget too small for the hull; a boundary_length not above 0; a budget or a
+/// boundary_length with lines; a budget with goals for shapes; such goals out of range; a wrong number of tolerances;
+/// tolerances below 0, NaN or with a budget; the dominant order. Fails with kInput for lines that meet at different
+/// heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
+/// beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30 of the extent (the message
+/// names these points and the far point that makes the extent so large). Fails with kPromise if float32 positions
+/// cannot satisfy the bound, and with kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log
+/// n); some 50 to 60 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

@@ -1,5 +1,5 @@
 // Prepare a terrain for printing: simplified, placed in millimetres, cut into print tiles, closed, with a proof for the
-// positions as written.
+// written positions.
 //
 // Example:
 //     SCARP_TRY(auto&& dem, scarp::read_height_field("dem.tif"));
@@ -27,7 +27,8 @@ struct PrintOptions {
   /// Height of the underside, in z units, below the lowest vertex. Not allowed with a thickness. DEFAULT: 2 % of the
   /// longest side below the lowest vertex.
   std::optional<double> base = std::nullopt;
-  /// Distance from the underside to the lowest vertex, above 0: in z units, or in print units. At most one of the two.
+  /// Distance from the underside to the lowest vertex, above 0: in z units, or in print units. At most one of the two
+  /// is set.
   std::optional<double> thickness = std::nullopt, printed_thickness = std::nullopt;
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
@@ -35,7 +36,7 @@ struct PrintOptions {
   /// The max error of the print, in print units, above 0. With Goals::max_error, the stricter one counts. DEFAULT:
   /// none.
   std::optional<double> max_error = std::nullopt;
-  int columns = 1, rows = 1;  ///< number of print tiles, at least 1
+  int columns = 1, rows = 1;  ///< print tiles, at least 1
   bool dovetail = false;      ///< a trapezoid tab in the middle of each common edge of two tiles
   double gap = 0;             ///< distance between print tiles, in print units, at least 0
 
@@ -51,13 +52,12 @@ struct PrintTile {
   SolidFacts facts;         ///< properties of `mesh`
 };
 
-/// A print and its properties.
 struct Print {
   double base = 0;               ///< height of the underside, in z units
   Placement placement;           ///< placement of all print tiles; used if PrintOptions::is_placed()
   std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are omitted
-  int empty_tiles = 0;           ///< number of tiles omitted
-  double max_error = 0;          ///< max error of the tops, as written, against the samples, in z units
+  int empty_tiles = 0;           ///< tiles omitted
+  double max_error = 0;          ///< max error of the tops, as written, at the samples, in z units
   std::uint64_t uncovered = 0;   ///< valid samples in gaps
   HeightRange heights;           ///< range of the samples
 
@@ -75,19 +75,19 @@ struct PrintedTerrain {
 Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print);
 
 /// Simplifies a field for a print. Rounding moves the placed positions, so the mesh is made with 1/1024 of the max
-/// error in reserve. If that is not enough, it is remade with a smaller max error, up to three times. The bound then
-/// holds for the print tiles as written. Cuts between tiles are edges of the mesh. If a budget ends the run, its mesh
-/// is the result, regardless of the error of the print.
+/// error in reserve. If that is not enough, the mesh is remade with a smaller max error, up to three times. The bound
+/// then holds for the print tiles as written. Cuts between tiles are edges of the mesh. If a budget ends the run, the
+/// mesh of this run is the result, regardless of the error of the print.
 ///
-/// `options`: as for simplify(). float32_positions is ignored; cuts are added to its breaklines. The heights of hard
-/// lines are written to `field`, as by apply_edits(); Simplified::edits lists them. The arguments are not needed after
-/// the call.
+/// `options`: as for simplify(). float32_positions is ignored, and cuts are added to the breaklines. The heights of
+/// hard lines are written to `field`, as by apply_edits(); Simplified::edits lists these edits. The arguments are not
+/// needed after the call.
 ///
-/// Fails with kUsage for options in conflict or out of range (the sentence begins with the option's name, such as
+/// Fails with kUsage for options in conflict or out of range (the message begins with the option's name, such as
 /// "base=300 is not …", or with "print tiles: " if the print cannot be cut in this way), for several tiles in a
 /// non-affine frame, and for a frame in space. Fails with kPromise if samples outside of gaps have no top above them,
-/// and if float32 cannot hold the error. Fails as simplify(), build_solid() and measure() do. Cost: usually one or two
-/// runs of simplify(), at most four, each with a measure() of the print.
+/// and if float32 positions cannot satisfy the max error. Fails as simplify(), build_solid() and measure() do. Cost:
+/// usually one or two runs of simplify(), at most four, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

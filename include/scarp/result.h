@@ -1,5 +1,5 @@
-// Handle failures: a call that can fail returns a Result, which holds its value or an Error of one sentence. Check it
-// by `if (!result)`, or forward the error by the macros below.
+// Handle failures: a call that can fail returns a Result, which holds a value or an Error of one sentence. Check the
+// Result by `if (!result)`, or forward the error by the macros below.
 //
 // Example:
 //     const auto half = [](int n) -> scarp::Result<int> {
@@ -18,10 +18,10 @@
 
 namespace scarp {
 
-/// Kinds of failure, in the terms a caller can act on. The command line maps each kind to an exit code.
+/// Kinds of failure that callers can act on. The command line maps each kind to an exit code.
 enum class ErrorKind {
   kUsage,      ///< options that conflict or are out of range (exit 1)
-  kMemory,     ///< Run::memory is too little for the mesh (exit 1)
+  kMemory,     ///< Run::memory is too small for the mesh (exit 1)
   kInput,      ///< a raster or mesh that cannot be read or used (exit 2)
   kPromise,    ///< the requested error bound cannot be met (exit 3)
   kOutput,     ///< a file that cannot be written (exit 4)
@@ -40,7 +40,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// `return fail(ErrorKind::kInput, "…")` from any function that returns a Result.
+/// For `return fail(ErrorKind::kInput, "…")` in any function that returns a Result.
 inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
   return tl::unexpected<Error>(Error{kind, std::move(message)});
 }
@@ -65,10 +65,10 @@ ForwardedError<E> forward_error(E&& error) {
 }  // namespace scarp
 
 /// `SCARP_TRY(const auto& mesh, read_mesh(path));` names the value of a Result, or returns its Error from the enclosing
-/// function or lambda, which returns a Result of any type. The Result lives until the end of the block; declare `auto&&
-/// mesh` to change or move the value. The value is moved to a target without `&`, as in `SCARP_TRY(job.mesh,
-/// read_mesh(path));`, or copied if the expression names a Result. The macro expands to several statements: in a branch
-/// it needs braces.
+/// function or lambda, which must return a Result of any type. The Result lives until the end of the block; declare
+/// `auto&& mesh` to change or move the value. The value is moved to a target without `&`, as in `SCARP_TRY(job.mesh,
+/// read_mesh(path));`, or copied if the expression names a Result. The macro expands to several statements, so it needs
+/// braces in a branch.
 #define SCARP_TRY(target, ...) SCARP_TRY_AS(SCARP_TRY_NAME(__COUNTER__), target, __VA_ARGS__)
 
 /// `SCARP_RETURN_IF_ERROR(write_mesh(path, mesh));` returns the Error of a Result whose value is not needed.

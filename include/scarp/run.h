@@ -1,5 +1,5 @@
-// Set threads and memory of a call, follow its progress, cancel it or end it early. None of this changes the result,
-// except an early end.
+// Set threads and memory of a call, follow its progress, cancel it or end it early. The result changes only if a run
+// ends early, or if Effort::kAuto finds too little memory for removal.
 //
 // Example:
 //     scarp::Run run;  // SimplifyOptions::run, MeasureOptions::run, …
@@ -21,10 +21,9 @@ namespace scarp {
 
 // Progress and cancellation.
 
-/// A snapshot of a running pass.
 struct Progress {
   std::string_view pass;  ///< "read", "refine", "fit", "search", "measure" or "topology"; valid during the call only
-  double fraction = 0;    ///< 0..1 of this pass; an estimate, never decreases within a pass
+  double fraction = 0;    ///< 0..1 of this pass: an estimate that never decreases within a pass
   std::uint64_t vertices = 0;  ///< vertices so far; 0 if the pass does not count them
   double max_error = 0;        ///< current max error in z units; 0 if the pass does not know it
 };
@@ -33,11 +32,10 @@ struct Progress {
 /// fails with ErrorKind::kCancelled.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
-/// Bytes of memory.
 struct Memory {
-  /// Memory limit of the whole process; 0: no limit. Strips, threads and the blocks of the file are chosen to fit. A
-  /// run that does not fit fails before the work begins, or as soon as the mesh exceeds the limit. The memory of a call
-  /// is estimated, not counted. DEFAULT: 0.
+  /// Memory limit of the whole process; 0: no limit. Strips, threads and the blocks of the file are chosen to fit the
+  /// limit. A run that does not fit fails before the work begins, or as soon as the mesh exceeds the limit. The memory
+  /// of a call is estimated, not counted. DEFAULT: 0.
   std::uint64_t limit = 0;
   /// The part of the limit already in use: by the program, by samples or the cache of their file. DEFAULT: 0.
   std::uint64_t taken = 0;
@@ -51,16 +49,15 @@ struct Run {
   int threads = 0;  ///< 0: all cores, or one for work too short to share. Never changes the result. DEFAULT: 0.
   Memory memory = {};
   ProgressCallback progress = {};
-  /// Polled often by simplify() with more than fast effort, from any thread; must stay true once true. Removal then
+  /// Polled often by simplify() with more than fast effort, from any thread. Once true, it must stay true. Removal then
   /// ends, and the result is the mesh so far, which satisfies the bound but depends on the time. A search for a budget
   /// ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
   /// Polled in the same way, for a caller that stops waiting. It is a request to end, not a deadline: max effort does
-  /// not wait for it. Not polled with a budget. DEFAULT: never.
+  /// not search until then. Not polled with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };
 
-/// Counters of the engine.
 struct Work {
   std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
   std::uint64_t triangles_scanned = 0;  ///< triangles scanned

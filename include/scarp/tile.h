@@ -1,12 +1,13 @@
 // Plan a pyramid of terrain tiles on the globe and make its tiles, as meshes and as bytes of quantized-mesh. For tile
 // sets from raster files, see tile_job.h.
 //
-// The grid (TileGrid) defines the tiles. A tile is a function of its id, the plan, and the heights of its nodes and of
-// a few nodes around it. It does not depend on its neighbours, so tiles may be made in any order, on any machine. Two
+// The grid (TileGrid) defines the tiles. A tile depends only on its id, the plan, and the heights of its nodes and of a
+// few nodes around it. It does not depend on neighbouring tiles, so tiles may be made in any order, on any machine. Two
 // neighbours still have the same vertices, heights and normals on their common edge.
 //
-// NODES. The source is sampled on a lattice: `cells` cells a side for tiles of the finest level. Coarser tiles use all
-// nodes below them, down to the plan's block level. The max error of a tile holds at all its nodes.
+// NODES. The source is sampled at the nodes of a lattice, with `cells` cells a side for tiles of the finest level.
+// Tiles of the plan's block level and below use all nodes in their area. The max error of a tile holds at all its
+// nodes.
 //
 // A LOCAL GRID lies on a plane. Its nodes are the samples of one raster, and tiles end at the raster's edge. All terms
 // for the earth's curvature are 0.
@@ -41,7 +42,7 @@
 
 namespace scarp {
 
-// Grids of tiles: the tiles of each level, their positions and their nodes.
+// Grids of tiles.
 //
 // All grids are quadtrees: a tile of level z + 1 is a quarter of one of level z; y counts from the south. Nodes divide
 // a tile's sides into equal numbers of steps; each node of a level is also a node of all finer levels.
@@ -49,10 +50,9 @@ namespace scarp {
 // Clients place vertices linearly between the tile's bounds in degrees. Nodes of the geographic grid are evenly spaced
 // in degrees too; rows of the Mercator grid are evenly spaced on its map, not in degrees.
 //
-// On a local grid, longitude and latitude in degrees mean cells of the raster, east and north of its south-western
+// On a local grid, longitude and latitude are not degrees but cells of the raster, counted from its south-western
 // sample.
 
-/// A tile of a grid.
 struct TileId {
   int z = 0;
   std::uint32_t x = 0, y = 0;  ///< y from the south
@@ -62,12 +62,11 @@ struct TileId {
 
 inline constexpr int kMaxTileLevel = 23;
 
-/// A rectangle in degrees.
 struct DegreeBox {
   double west = 0, south = 0, east = 0, north = 0;
 };
 
-/// Longitudes and latitudes of a line's vertices. A step of more than 180° runs the other way round.
+/// Longitudes and latitudes of a line's vertices. A step of more than 180° runs the other way around the globe.
 using DegreeLine = std::vector<std::array<double, 2>>;
 
 enum class GridKind {
@@ -76,21 +75,20 @@ enum class GridKind {
   kLocal,       ///< on a plane: one square at level 0, with the raster's south-western corner
 };
 
-/// The raster of a local grid.
 struct LocalRaster {
   std::int32_t cols = 0, rows = 0;  ///< samples, at least 2 each
   double cell_x = 1, cell_y = 1;    ///< metres, or other units; rounded to 29 bits, so that positions are exact
-  std::int64_t side = 0;            ///< cells along the square: those of a tile of the finest level, times a power of
-                                    ///< two
+  std::int64_t side = 0;            ///< cells along a side of the square: those of a tile of the finest level, times a
+                                    ///< power of two
 
-  /// The sample next to the middle; positions count from it. Above 32768 samples, positions of all levels are whole
-  /// steps from it.
+  /// The sample next to the middle, from which positions are counted. If `side` exceeds 32768, positions of all levels
+  /// are whole steps from this sample.
   std::int64_t centre_col() const { return centre_of(cols); }
   std::int64_t centre_row() const { return centre_of(rows); }  ///< from the southern row
 
   friend bool operator==(const LocalRaster&, const LocalRaster&) = default;
 
-  static constexpr std::int64_t kPlaces = 32768;  ///< number of vertex positions along a side of a tile
+  static constexpr std::int64_t kPlaces = 32768;  ///< vertex positions along a side of a tile
 
  private:
   std::int64_t centre_of(std::int64_t samples) const {
@@ -122,7 +120,7 @@ struct TileGrid {
   /// "geographic", "mercator", "local". For a local grid, find() sets the kind only.
   std::string_view name() const;
   static std::optional<TileGrid> find(std::string_view name);
-  /// Its name in layer.json; "" for a local grid.
+  /// The grid's name in layer.json; "" for a local grid.
   std::string_view projection() const;
   static std::optional<TileGrid> find_projection(std::string_view projection);
 
@@ -135,15 +133,15 @@ struct TileGrid {
   /// Length of a tile's side in the units of its vertices' u and v. On local grids, nodes lie at whole units.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
 
-  /// Full turns, in degrees. Added to a tile's bounds, they give all its copies that a source may cover; the last
-  /// column of tiles is next to the first.
+  /// Full turns, in degrees. Each turn, added to a tile's bounds, results in a copy of the tile that a source may
+  /// cover. The last column of tiles is next to the first.
   std::span<const double> turns() const;
   /// True if the first and the last row of nodes are each a pole: a single point.
   bool has_poles() const { return kind == GridKind::kGeographic; }
   /// True if rows of nodes are evenly spaced in degrees.
   bool has_even_rows() const { return kind != GridKind::kMercator; }
-  /// Nodes that may have heights: on a local grid those of the raster, and the next ones beyond an edge without nodes;
-  /// on other grids all, also those beyond a full turn.
+  /// Nodes that may have heights: on a local grid, those of the raster and, beyond an edge without nodes, the next
+  /// ones; on other grids all nodes, even beyond a full turn.
   NodeRange land_columns(std::int64_t per_turn) const;
   NodeRange land_rows(std::int64_t per_turn) const;
 
@@ -173,7 +171,7 @@ struct TileGrid {
   NodeWindow window_of(TileId id, std::int32_t steps, std::int32_t halo = 0) const;
 
   /// The error in metres that clients (CesiumJS, cesium-native) assume for a level of quantized-mesh, on an ellipsoid
-  /// with this `semi_major` axis and 65 samples a tile. On a local grid, the same share of a tile's side.
+  /// with this `semi_major` axis and 65 samples a tile. On a local grid, this error is the same share of a tile's side.
   double geometric_error(int z, double semi_major = 6378137) const;
   /// Largest side of a tile, in metres.
   double tile_width(int z, double semi_major) const;
@@ -195,7 +193,7 @@ struct NodeWindow {
   double latitude(std::int64_t of_row) const { return grid.latitude(of_row, last_row()); }
 };
 
-// Vertical datums: reference surfaces of heights, such as the sea.
+// Vertical datums.
 
 /// The reference surface of heights, such as the sea.
 class HeightZero {
@@ -208,8 +206,8 @@ class HeightZero {
 };
 
 /// The geoid EGM96 above the ellipsoid of WGS 84, built in: a grid of 15 minutes of arc, in whole centimetres, with
-/// bilinear interpolation. Within 6 mm of PROJ's result for the same grid (egm96_15.gtx) everywhere. The same bits on
-/// every machine. Cost: 20 ms and 4 MB at the first call.
+/// bilinear interpolation. Heights are within 6 mm of PROJ's for the same grid (egm96_15.gtx) everywhere, and the same
+/// bits on every machine. Cost: 20 ms and 4 MB at the first call.
 std::shared_ptr<const HeightZero> egm96();
 
 /// A reference surface as a grid of heights.
@@ -219,9 +217,10 @@ struct ZeroGrid {
   RasterPlace place;           ///< position of the grid's nodes
 };
 
-/// Interpolates bilinearly between the four nodes around a position; up to half a cell outside, the outer nodes are
-/// used. Unknown where one of the four nodes is unknown. A grid in degrees around the whole globe continues after its
-/// last column. Fails with kUsage for a wrong number of heights, and as make_node_source().
+/// Interpolates bilinearly between the four nodes around a position; up to half a cell outside the grid, the outer
+/// nodes are used. The surface is unknown where one of these nodes is unknown. After the last column, a grid in degrees
+/// around the whole globe continues with the first. Fails with kUsage for a wrong number of heights, and as
+/// make_node_source().
 Result<std::shared_ptr<const HeightZero>> make_grid_zero(ZeroGrid grid);
 
 // Heights by position, from which tiles are made.
@@ -234,7 +233,6 @@ struct SampleRow {
 };
 using SampleVisitor = std::function<void(const SampleRow&)>;
 
-/// Heights by position.
 class NodeSource {
  public:
   virtual ~NodeSource() = default;
@@ -245,73 +243,70 @@ class NodeSource {
   virtual NodeWindow land(const NodeWindow& window) const { return window; }
   /// True if nodes are interpolated from samples that visit_samples() passes. DEFAULT: false.
   virtual bool has_samples() const { return false; }
-  /// Passes all samples in the box, and others around it, to `visit`, some perhaps twice; longitudes continue beyond
-  /// 180° where the box does. A row is valid during its visit. Several threads may call it at once. Fails as the
+  /// Passes all samples in the box, and others around it, to `visit`, some of them twice. Longitudes continue beyond
+  /// 180° if the box does. A row is valid only during its visit. Several threads may call it at once. Fails as the
   /// samples' source does. DEFAULT: passes none.
   virtual Result<void> visit_samples(const DegreeBox& /*box*/, const SampleVisitor& /*visit*/) const { return {}; }
 };
 
-/// Nodes by interpolation between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node are
-/// heights, else bilinear between the heights among the nearest four. A node has no height where the nearest sample has
-/// none. With `from_degrees`, the position of a node in the raster is exact at each 16th node and interpolated in
+/// Returns nodes interpolated between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node
+/// are heights, else bilinear between the heights among the nearest four. A node has no height where the nearest sample
+/// has none. With `from_degrees`, the position of a node in the raster is exact at each 16th node and interpolated in
 /// between, as is the position of a sample on the globe. Borrows the field's samples. Fails with kUsage for an affine
 /// map without an inverse.
 Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
 
-/// The samples of the raster of a local grid, with north up, as nodes of the finest level, or every second, fourth …
-/// sample. Beyond the raster, its outermost samples are repeated for tiles that read there. Borrows the field's
-/// samples.
+/// Returns the samples of a local grid's raster, with north up, as nodes of the finest level; coarser nodes are every
+/// second, fourth … sample. Beyond the raster, its outermost samples are repeated. Borrows the field's samples.
 std::unique_ptr<NodeSource> make_local_nodes(const HeightField& field);
 
-/// The nodes of `source`, raised by the height of `zero`, which is exact at positions at most 1/32° apart and
-/// interpolated in between. Its read() fails with kInput for a node where `zero` is unknown. Borrows the source.
+/// Returns the nodes of `source`, raised by the height of `zero`. This height is exact at positions at most 1/32°
+/// apart, and interpolated in between. read() fails with kInput for a node where `zero` is unknown. Borrows the source.
 std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::shared_ptr<const HeightZero> zero);
 
-/// A source of a stack.
 struct StackedSource {
   const NodeSource* nodes = nullptr;  ///< borrowed
   DegreeBox covered = {};             ///< no heights elsewhere
 };
-/// Several sources as one: a node has the height of the first source with a height there. Samples are passed only for a
-/// single source. Cost: each source reads a rectangle around the nodes still without a height.
+/// Several sources as one: a node has the height of the first source with a height there. visit_samples() passes
+/// samples only if there is one source. Cost: each source reads a rectangle around the nodes still without a height.
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
-/// The rectangle in degrees that the raster covers, with half a cell around the outer samples. Fails with kInput if its
-/// outline has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`: from x and
-/// y to degrees, null as in RasterPlace.
+/// The rectangle in degrees that the raster covers, with half a cell around the outer samples. Fails with kInput if the
+/// raster's outline has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`:
+/// from x and y to degrees, null as in RasterPlace.
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
                                   const PointTransform* to_degrees);
 
-// The data of pyramids of tiles: the plan, a tile, statistics of the tiles made.
+// Pyramids of tiles: the plan, a tile, statistics.
 //
 // HEIGHTS are multiples of a quantum for each level. A tile's header is chosen so that clients decode a height to the
-// same float32 in each tile.
+// same float32 in all tiles.
 
 class TileLines;
 struct TileWaters;
 
-/// The goals of a pyramid.
 struct PyramidSettings {
   /// Cells between nodes along a side of tiles of the finest level, a power of two, 16 … 256. DEFAULT: 128.
   int cells = 128;
-  /// Levels 0 … max_zoom. DEFAULT (−1): the first level whose nodes are no farther apart than 1.1 cells of the source.
+  /// The finest level. DEFAULT (−1): the first level whose nodes are at most 1.1 cells of the source apart.
   int max_zoom = -1;
   /// Max error of the finest level in metres; above 0. DEFAULT (0): a quarter of its geometric error, or the precision
   /// of the format for such heights if that is larger.
   double max_error = 0;
-  /// A level's max error is the geometric error divided by this, or max_error if that is larger. At least 1/2. DEFAULT:
-  /// 2.
+  /// A level's max error is its geometric error divided by this quality, or max_error if that is larger. At least 1/2.
+  /// DEFAULT: 2.
   double quality = 2;
   /// DEFAULT: kNormal.
   Effort effort = Effort::kNormal;
   /// Height for nodes without a height, in metres. DEFAULT: 0, the ellipsoid.
   float background = 0;
-  /// True if each tile with a child has all four, also those without heights. Where a child is missing, clients of 3D
-  /// Tiles show a hole; clients of quantized-mesh show that part of its parent. DEFAULT: false.
+  /// True if each tile with a child has all four children, even without heights. Where a child is missing, clients of
+  /// 3D Tiles show a hole; clients of quantized-mesh show that part of the parent. DEFAULT: false.
   bool has_siblings = false;
   Geodetic ellipsoid = {};
   TileGrid grid = {};  ///< DEFAULT: geographic.
-  /// Blocks that do not touch this box are treated as nodata. Tiles of other blocks are those of the whole pyramid.
+  /// Blocks that do not touch this box are treated as nodata. Tiles of other blocks equal those of the whole pyramid.
   /// DEFAULT: all.
   std::optional<DegreeBox> only = {};
   /// Largest size of a stored tile. For larger tiles, the max error of the interior (not of the border) is doubled
@@ -325,7 +320,6 @@ struct PyramidSettings {
   std::vector<DegreeLine> lines = {};
 };
 
-/// A level of a pyramid.
 struct PyramidLevel {
   double geometric_error = 0;  ///< metres
   double max_error = 0;        ///< max error of the tiles' meshes at their nodes, metres
@@ -334,7 +328,6 @@ struct PyramidLevel {
                                ///< curvature
 };
 
-/// The plan's data about a source of a stack.
 struct PlannedSource {
   DegreeBox covered = {};
   int max_zoom = 0;  ///< the finest level that it needs
@@ -378,13 +371,13 @@ struct TerrainTile {
   double quantum = 1;
   double max_error = 0;  ///< max error required of its interior, in metres: the level's, or more because of
                          ///< max_tile_bytes
-  /// Number of line segments that are not edges: rounded to 32767ths of the tile, they would flip triangles.
+  /// Number of line segments that are not edges, since rounding to 32767ths of the tile would flip triangles.
   std::uint64_t lines_left_out = 0;
 
   /// Largest |mesh − node| in metres over all nodes of the tile, with decoded heights and edges that are straight on
   /// the map. Above the plan's block level, this is an upper bound.
   double node_error = 0;
-  /// Max depth of flat triangles below the ellipsoid's curve, in metres; adds to node_error in space.
+  /// Max depth of flat triangles below the ellipsoid's curve, in metres. In space, it adds to node_error.
   double sag = 0;
 
   double bound() const { return node_error + sag; }
@@ -413,17 +406,16 @@ class TileSink {
   virtual Result<void> put(TileId id, std::span<const std::uint8_t> bytes) = 0;
 };
 
-/// Statistics about the tiles of a level.
 struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest among its tiles
-  double source_error = 0;           ///< the largest among its tiles; NaN if any of them is
+  double source_error = 0;           ///< the largest among its tiles; NaN if any is NaN
   /// Tiles whose node_error (or source_error if the plan binds samples) exceeds their max error. Causes: rounded
   /// positions cannot follow a cliff, nodes cannot follow a sample, or, above the block level, reduced nodes prevent a
   /// smaller proven error.
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;         ///< tiles whose max error exceeds the level's because of plan.max_tile_bytes
-  std::uint64_t oversized = 0;       ///< number of these whose borders alone exceed plan.max_tile_bytes
+  std::uint64_t oversized = 0;       ///< those of them whose borders already exceed plan.max_tile_bytes
   std::uint64_t lines_left_out = 0;  ///< sum of TerrainTile::lines_left_out
 };
 
@@ -433,12 +425,11 @@ struct PyramidReport {
   std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
 };
 
-/// Data about a finished block.
 struct BlockReport {
   TileId block;
   PyramidReport report;
-  /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of the error of this reduction, 390 kB.
-  /// The same bytes on every machine. Empty for a block without heights.
+  /// For finish_pyramid(): the block's nodes reduced to 128 cells a side, and error bounds of this reduction; 390 kB,
+  /// the same bytes on every machine. Empty for a block without heights.
   std::vector<std::uint8_t> reduced;
   std::uint64_t hash = 0;  ///< result of hash_block()
   /// Cost of the block: CPU time, and the peak memory of the process until then. Set by callers that measure it.
@@ -448,8 +439,8 @@ struct BlockReport {
 
 // The quantized-mesh format: one file for each tile.
 
-/// The bytes of a quantized-mesh 1.0 file, not compressed, with normals (extension 1), and with `water_mask` (extension
-/// 2) unless empty. Deterministic: calls no function of the machine's mathematics library.
+/// Returns the bytes of a quantized-mesh 1.0 file, not compressed, with normals (extension 1) and, unless empty,
+/// `water_mask` (extension 2). Deterministic: calls no function of the machine's mathematics library.
 std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {},
                                                 const TileGrid& grid = {},
                                                 std::span<const std::uint8_t> water_mask = {});
@@ -475,25 +466,25 @@ struct QuantizedMesh {
   }
 };
 
-/// Fails with kInput for other or damaged files; never trusts a length or an index in the file.
+/// Reads a quantized-mesh file. Fails with kInput for other or damaged files; never trusts a length or an index in the
+/// file.
 Result<QuantizedMesh> decode_quantized_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
-/// The facts about the source that a plan needs.
 struct SourceFacts {
   DegreeBox covered = {};
   double cell = 0;          ///< size of a cell in metres along the ground, the geometric mean of both directions, above
                             ///< 0
   double min = 0, max = 0;  ///< bounds of its heights, metres
-  double cell_degrees = 0;  ///< the same in degrees, for a raster in degrees; 0 for others
+  double cell_degrees = 0;  ///< size of a cell in degrees, for a raster in degrees; else 0
 };
 
 /// The conflicts among the settings, each as a sentence; plan_pyramid() fails with kUsage and the first. Empty: none.
 std::vector<std::string> list_conflicts(const PyramidSettings& settings);
 
-/// Fails with kUsage for settings out of range.
+/// Makes a plan. Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
-/// Plans for a stack of at least one source. The plan's finest level, and the spacing of nodes everywhere, is the
-/// finest that any source needs.
+/// Makes a plan for a stack of at least one source. The plan's finest level, and the spacing of nodes everywhere, are
+/// the finest that any source needs.
 Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
 
 /// Replaces the plan's lines, for its levels and covered area.
@@ -503,15 +494,16 @@ void set_lines(PyramidPlan& plan, std::vector<DegreeLine> lines);
 /// there.
 int finest_level(const PyramidPlan& plan, TileId id);
 
-/// The tile as stored in a set, within plan.max_tile_bytes if possible: a function of (id, plan, nodes, encoder).
+/// Makes the tile as stored in a set, within plan.max_tile_bytes if possible. The tile depends only on id, plan, nodes
+/// and encoder.
 ///
-/// At plan.block_level and below, its node_error is at most its max error, except next to a cliff that positions in
-/// 32767ths of the tile cannot follow. If the plan binds samples, the same holds for its source_error, except at
+/// At plan.block_level and below, the tile's node_error is at most its max error, except next to a cliff that positions
+/// in 32767ths of the tile cannot follow. If the plan binds samples, the same holds for its source_error, except at
 /// samples too far from the surface between the nodes around them.
 ///
-/// Above plan.block_level only the nodes that its mesh needs are read: the mesh is that of finish_pyramid(), without
-/// the proof. node_error is NaN, since the nodes in between were not examined. Cost: some 70,000 nodes, read one by one
-/// if far apart.
+/// Above plan.block_level, only the nodes that the tile's mesh needs are read. This mesh is that of finish_pyramid(),
+/// without the proof: node_error is NaN, since the nodes in between were not examined. Cost: some 70,000 nodes, read
+/// one by one if far apart.
 ///
 /// REQUIRES: 0 <= id.z <= plan.max_zoom(). Fails as the source and the encoder do.
 Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source, const TileEncoder& encode);
@@ -519,8 +511,8 @@ Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource&
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// Lists the tiles of make_pyramid() without making them: by level, rows and columns, y · 2^32 + x, sorted. Reads each
-/// node once. Without a source it reads none, and tiles below the blocks count if the plan's source may cover them.
-/// Progress: pass "look". Fails as the source does, and with kCancelled.
+/// node once. Without a source, it reads no nodes, and lists tiles below the blocks if the plan's source may cover
+/// them. Progress: pass "look". Fails as the source does, and with kCancelled.
 Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
                                                            const Run& run = {});
 
@@ -531,9 +523,9 @@ std::vector<TileId> find_blocks(const PyramidPlan& plan);
 /// Approximate relative cost of a block: 1, plus 1000 times the share of it that the source may cover.
 std::uint64_t block_cost(const PyramidPlan& plan, TileId block);
 
-/// Makes the tiles of one block that have heights, their siblings if the plan requires them, and always the block's own
-/// tile. A tile's bytes are those of make_tile(). Tiles of levels below `deepest`, and their errors in the report, are
-/// omitted; all else is that of the whole block. REQUIRES: find_blocks() lists the block.
+/// Makes the tiles of one block that have heights, their siblings if the plan requires siblings, and always the block's
+/// own tile. A tile's bytes are those of make_tile(). Tiles finer than level `deepest`, and their errors in the report,
+/// are omitted; all other results are those of the whole block. REQUIRES: find_blocks() lists the block.
 ///
 /// Cost: each node is read once. Memory: that of the nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
 /// make_tile() and the sink do, and with kCancelled.
@@ -542,18 +534,18 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
 
 /// A hash of all nodes and samples that make_block() reads from the source, and of the shapes of water masks. Blocks
 /// with the same hash and plan have the same tiles and errors. 0 for a block without heights and masks. Cost: the nodes
-/// are read; memory as make_block(). Fails as the source does.
+/// are read. Memory: as make_block(). Fails as the source does.
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads = 0);
 
-/// Makes the tiles above the blocks from nodes reduced to 256 cells a side. The reduction keeps error bounds, so their
-/// node_error is an upper bound for all nodes below. REQUIRES: `blocks` are those of find_blocks(), in any order.
-/// Returns the report of all tiles. Progress and failures as make_block(), and kInput for damaged `reduced`.
+/// Makes the tiles above the blocks from nodes reduced to 256 cells a side. The reduction keeps error bounds, so the
+/// tiles' node_error is an upper bound for all nodes below. REQUIRES: `blocks` are those of find_blocks(), in any
+/// order. Returns the report of all tiles. Progress and failures as make_block(), and kInput for a damaged `reduced`.
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run = {});
 
 /// Makes all tiles of a pyramid: those with heights and, on levels up to plan.block_level, the tiles that clients need
-/// to reach these (all roots, and the siblings of each tile). Equivalent to make_block() for each of find_blocks() in
-/// order, then finish_pyramid().
+/// to reach these (all roots, and the siblings of each tile). Equivalent to make_block() for each block of
+/// find_blocks() in order, then finish_pyramid().
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
 

@@ -7,8 +7,8 @@
 // Processes exchange only the plan and the parts. A block in a part is never remade, so an interrupted run resumes
 // where it stopped. The set is that of make_pyramid(), byte for byte, regardless of which process made its blocks.
 //
-// After the sources have changed, a new plan with the settings of the earlier one reuses its parts: blocks with
-// unchanged nodes are kept.
+// After the sources have changed, a new plan with the settings of the earlier plan reuses the earlier parts: blocks
+// with unchanged nodes are kept.
 //
 // Example:
 //     SCARP_TRY(const auto& raster, scarp::GlobeRaster::open(scarp::find_mosaics({"dem.tif"}), {.with_range = true},
@@ -75,12 +75,11 @@ struct RasterOnGlobe {
   std::string vertical;                    ///< the zero of the heights, in words
 };
 
-/// A raster on a plane.
 struct RasterOnPlane {
   double cell_x = 1, cell_y = 1;
   std::string units;                  ///< unit of cell_x and cell_y: "metre", "cell", or "unit of the raster's x and y"
   std::string vertical;               ///< the zero of the heights, in words
-  std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster without a position there
+  std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster without a position on the globe
   Geodetic ellipsoid;                 ///< the ellipsoid touched by the plane, with `globe`
   std::string body;                   ///< see RasterOnGlobe::body
   std::vector<std::string> warnings;  ///< warns if the plane lies far from the globe
@@ -102,7 +101,7 @@ class TileSetSink : public TileSink {
 
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// A hash of all tiles so far, in any order: 16 hexadecimal digits.
+  /// A hash of all tiles so far, independent of their order: 16 hexadecimal digits.
   std::string version() const;
   /// Writes the metadata file for clients, layer.json. Called once, after all tiles. Adds the format's additional error
   /// to the bounds in the report. Fails with kOutput.
@@ -130,10 +129,10 @@ struct TileJob;
 /// plane.
 class GlobeRaster {
  public:
-  /// `mosaics`: at least one; the rasters of each lie on one grid, see find_mosaics(). Reads them, or streams them from
-  /// their files if memory is too small, as open_height_field() does; options.crs and options.view.more are ignored.
-  /// Fails as open_height_field() and place_on_globe() do; with kUsage for options.view with several mosaics, and for a
-  /// datum that contradicts a raster's CRS; with kInput for several planets.
+  /// `mosaics`: at least one; the rasters of each mosaic lie on one grid, see find_mosaics(). Reads them, or streams
+  /// them from their files if memory is too small, as open_height_field() does; options.crs and options.view.more are
+  /// ignored. Fails as open_height_field() and place_on_globe() do; with kUsage for options.view with several mosaics,
+  /// and for a datum that contradicts a raster's CRS; with kInput for rasters of several planets.
   ///
   /// `grid`: std::nullopt selects the grid that suits the first raster, grid_for(). A local grid needs exactly one
   /// mosaic (else kUsage), which place_on_plane() positions.
@@ -150,7 +149,7 @@ class GlobeRaster {
   void add_waters(const PyramidPlan& plan);
   /// The facts for plan_pyramid(). REQUIRES: opened with options.with_range.
   std::vector<SourceFacts> facts() const;
-  /// Its grid of tiles, with `cells` cells a side of a tile of the finest level.
+  /// The grid of tiles, with `cells` cells a side for tiles of the finest level.
   TileGrid grid(int cells) const;
   const std::optional<RasterOnPlane>& plane() const;  ///< nothing without a local grid
   const RasterInfo& info() const;                     ///< metadata of the first raster
@@ -171,19 +170,19 @@ class GlobeRaster {
 struct FileStamp {
   std::string path;  ///< absolute, if it names a file
   std::uint64_t size = 0;
-  std::int64_t changed = 0;   ///< nanoseconds since 1970; both 0 if it is not a file, such as a URL
+  std::int64_t changed = 0;   ///< nanoseconds since 1970; size and time are 0 if it is not a file, such as a URL
   std::uint64_t content = 0;  ///< a hash of its bytes; 0: not read
 
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// The stamp of an existing file; else only the path.
+/// Returns the stamp of an existing file; for other paths, only the path is set.
 FileStamp stamp_of(const std::string& path);
 
 /// The estimated cost of making a set, from a sample of tiles.
 struct TileEstimate {
-  std::uint64_t blocks = 0;        ///< number that may have heights
-  std::uint64_t finest_tiles = 0;  ///< number on the finest level
-  std::uint64_t tiles = 0;         ///< number on all levels
+  std::uint64_t blocks = 0;        ///< blocks that may have heights
+  std::uint64_t finest_tiles = 0;  ///< tiles on the finest level
+  std::uint64_t tiles = 0;         ///< tiles on all levels
   std::uint64_t bytes = 0;         ///< size of the tiles, as stored
   double core_seconds = 0;         ///< on this machine
   std::uint64_t memory = 0;        ///< bytes for a process with one thread, without the raster
@@ -211,9 +210,9 @@ TileDrape stamp_drape(const std::string& path, ImageFormat format);
 /// Everything on which a set depends.
 struct TileJob {
   std::vector<FileStamp> rasters;      ///< in order of priority
-  std::vector<std::uint32_t> mosaics;  ///< the number of consecutive rasters in each mosaic
-  std::vector<FileStamp> files;        ///< other files that they use, such as the sources of a VRT, and the files of
-                                       ///< water
+  std::vector<std::uint32_t> mosaics;  ///< number of consecutive rasters in each mosaic
+  std::vector<FileStamp> files;        ///< other files that the rasters use, such as the sources of a VRT, and the
+                                       ///< files of water
   ReadOptions reading;  ///< reads band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
   FileStamp geoid;    ///< stamp of datum.geoid, if given
@@ -229,19 +228,19 @@ struct TileJob {
   std::uint64_t filled = 0;              ///< missing samples that were filled; not part of any key
 };
 
-/// The encoder of the job's tiles. Opens the image. Borrows the job. Fails as open_globe_image().
+/// The encoder of the job's tiles. Opens the image, if any. Borrows the job. Fails as open_globe_image().
 Result<TileEncoder> open_tile_encoder(const TileJob& job);
 
 /// Sets job.rasters and job.files: the files of these rasters, by list_files().
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);
 
-/// Reads job.waters, if any, finds their levels from the raster's nodes, and sets job.plan.waters, job.files and the
-/// raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is a plan for this raster.
+/// Reads job.waters, if any, finds the lakes' levels from the raster's nodes, and sets job.plan.waters, job.files and
+/// the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is a plan for this raster.
 Result<void> find_waters(TileJob& job, GlobeRaster& raster);
 
 /// The text of a plan file: JSON. Numbers are read back exactly.
 std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
-/// Reads such a text. Fails with kInput unless it is a plan of this version of Scarp.
+/// Reads the text of a plan file. Fails with kInput unless it is a plan of this version of Scarp.
 Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 /// decode_tile_job() of a file. Also fails with kInput if the file cannot be read.
 Result<TileJob> read_tile_job(const std::string& path);
@@ -251,7 +250,7 @@ std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
 std::uint64_t key_of(const TileJob& job);
 /// A hash of all settings for making tiles from nodes. Parts with another hash are not reused.
 std::uint64_t settings_key_of(const TileJob& job);
-/// A hash of the files' stamps, or only of their content if known.
+/// A hash of the files' stamps or, if known, only of their content.
 std::uint64_t sources_key_of(const TileJob& job);
 /// Sets FileStamp::content of all files. Fails with kInput.
 Result<void> add_contents(TileJob& job);
@@ -262,8 +261,8 @@ std::optional<std::string> find_changed(const TileJob& job);
 Result<void> check_rasters(const TileJob& job);
 
 /// A job for changed or other rasters with the levels and settings of an earlier job, so that unchanged tiles keep
-/// their bytes. `now`: a job for these rasters, with the earlier one's finest level and max error. Fails with kUsage if
-/// their heights need coarser steps than the earlier levels have.
+/// their bytes. `now`: a job for these rasters, with the earlier job's finest level and max error. Fails with kUsage if
+/// the rasters' heights need coarser steps than the earlier levels have.
 Result<TileJob> follow_job(const TileJob& earlier, TileJob now);
 
 /// Makes `samples` tiles of the finest level, spread evenly over the blocks, on one thread. Fails as make_tile() does.
@@ -280,7 +279,7 @@ struct Shard {
 };
 
 /// The blocks made so far: files in a folder. Each process appends to its own file; a truncated record is ignored. A
-/// record contains a block with the files' stamps and the hash of its nodes, or states that a block of these nodes is
+/// record contains a block with the files' stamps and the hash of its nodes, or states that a block with these nodes is
 /// also valid for other stamps.
 class TileParts {
  public:
@@ -311,26 +310,24 @@ class TileParts {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The work of one process.
 struct PartsReport {
   std::uint64_t blocks = 0;     ///< made now
-  std::uint64_t there = 0;      ///< number in its shard made before, or meanwhile by another process
+  std::uint64_t there = 0;      ///< blocks of its shard made before, or meanwhile by another process
   std::uint64_t unchanged = 0;  ///< made before from other files with the same nodes
   std::uint64_t tiles = 0, bytes = 0;
-  bool has_company = false;  ///< another process was making the same shard when this one began
+  bool has_company = false;  ///< true if another process was making the same shard when this process began
 };
 
 /// Makes the missing blocks of a shard, and appends them to a new file of the folder, which is created if needed. Each
 /// block is on the disk before the next begins. `only`: omits blocks that do not touch this box. If a block exists from
-/// other sources, its nodes are read, and it is remade if they differ. Two processes may make one shard at once: the
-/// second begins at its end. Progress: pass "tiles"; `tell` receives the report after each block. Fails as
-/// make_block(), as check_rasters() after each block (which is then discarded), with kOutput if the file cannot be
-/// written, and with kCancelled. Finished blocks remain.
+/// other sources, its nodes are read, and the block is remade if they differ. Two processes may make one shard at once:
+/// the second one begins at the shard's end. Progress: pass "tiles"; `tell` receives the report after each block. Fails
+/// as make_block(), as check_rasters() after each block (then the block is discarded), with kOutput if the file cannot
+/// be written, and with kCancelled. Finished blocks remain.
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
                                const Run& run = {}, const std::optional<DegreeBox>& only = {},
                                const std::function<void(const PartsReport&)>& tell = {});
 
-/// The cost of making the blocks of a set.
 struct PartsCost {
   double core_seconds = 0;   ///< total of all blocks and of the levels above
   std::uint64_t memory = 0;  ///< peak memory of a process, including its raster

@@ -6,7 +6,7 @@
 //   .mbtiles         MBTiles 1.3: an SQLite database
 //   .3tz             3D Tiles Archive 1.3: ZIP, not compressed
 //   (none of these)  a folder: each tile and each file under its name; any web server can serve it
-// docs/tiles.md describes their contents.
+// docs/tiles.md describes the contents of a set.
 //
 // Example:
 //     SCARP_TRY(const auto& set, scarp::open_tile_set("hills.pmtiles"));
@@ -42,29 +42,30 @@ enum class TileFormat {
 
 /// The name of a tile as a file, by TileFormat.
 std::string tile_name(TileFormat format, TileId id);
-/// The tile of such a name; nothing for other names, and for tiles outside of all grids.
+/// The tile with this file name; nothing for other names, and for tiles outside of all grids.
 std::optional<TileId> find_tile_id(TileFormat format, std::string_view name);
 
-/// Writes a set of tiles into its container. One thread at a time.
+/// Writes a set of tiles into its container. Only one thread at a time may use it.
 class TileSetWriter {
  public:
-  /// An unfinished set is removed.
+  /// Removes an unfinished set.
   virtual ~TileSetWriter() = default;
   /// Adds a tile; readers get the same bytes. Tiles may be added in any order. REQUIRES: each id belongs to the grid
   /// and is added once. Fails with kOutput.
   virtual Result<void> put_tile(TileId id, std::span<const std::uint8_t> bytes) = 0;
-  /// Adds another file. Fails with kOutput. REQUIRES: each name once; a relative path of plain parts, no tile's name,
-  /// and one of "layer.json", "tileset.json" and "subtrees/….subtree" if Scarp is to recognise the set as its own.
+  /// Adds another file. Fails with kOutput. REQUIRES: each name is added once, is a relative path of plain parts, and
+  /// is not a tile's name. Scarp recognises a set as its own only if all names are "layer.json", "tileset.json" or
+  /// "subtrees/….subtree".
   virtual Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) = 0;
   /// Gives the set its final name. Fails with kOutput. REQUIRES: called once, at the end.
   virtual Result<void> finish() = 0;
 };
 
-/// Fails with kUsage for a name of neither a folder nor a container, such as that of a mesh, an image or a tile. Names
-/// that end with a slash and names of existing folders are always folders.
+/// Fails with kUsage for a name that fits neither a folder nor a container, such as that of a mesh, an image or a tile.
+/// Names that end with a slash and names of existing folders are always folders.
 Result<void> check_set_name(const std::string& path);
 /// Creates a set under a temporary name in the folder of `path`, until finish(). A folder is first named
-/// ".scarp-tiles-…"; the next set of the same name removes such folders of killed processes of this machine. One-file
+/// ".scarp-tiles-…"; the next set of the same name removes such folders of killed processes on this machine. One-file
 /// containers need the space of the set twice until finish(). Memory: 24 bytes a tile, with PMTiles twice that. The
 /// bytes of the finished set do not depend on the order of its tiles and files. Fails with kOutput if nothing can be
 /// created, and if `path` exists. Two existing paths are accepted: an empty folder for a set in a folder and, with
@@ -86,8 +87,8 @@ class TileSetReader {
   virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
   /// True if the container declares that all tiles are compressed with gzip; nothing if it does not declare this.
   virtual std::optional<bool> says_gzip() const { return std::nullopt; }
-  /// False declarations of the container about itself, as sentences; other readers may rely on them. Reads all its
-  /// indexes.
+  /// Describes the container's false declarations about itself, in sentences; other readers may rely on these
+  /// declarations. Reads all its indexes.
   virtual std::vector<std::string> find_faults() const { return {}; }
 };
 
@@ -109,7 +110,8 @@ struct PlaneOnGlobe {
   std::array<double, 16> transform{};
   std::string crs;                  ///< CRS of the raster, as RasterInfo::crs
   double convergence = 0;           ///< degrees from true north to the raster's north, clockwise
-  double scale_x = 1, scale_y = 1;  ///< scale of the projection there: metres of the plane for one on the ground
+  double scale_x = 1, scale_y = 1;  ///< scale of the projection at the centre: metres on the plane for one on the
+                                    ///< ground
   /// Largest distance in metres between the transformed and the true position of the raster, along the ground and in
   /// height. Its causes are the earth's curvature, and the change of scale and rotation away from the centre.
   double off_along = 0, off_height = 0;
@@ -117,7 +119,6 @@ struct PlaneOnGlobe {
   friend bool operator==(const PlaneOnGlobe&, const PlaneOnGlobe&) = default;
 };
 
-/// Metadata that a set declares.
 struct LayerFacts {
   std::string name = "terrain";
   std::string description;
@@ -127,15 +128,15 @@ struct LayerFacts {
   std::string body;           ///< see RasterOnGlobe::body
   std::string units;          ///< units of a local grid's cells, as RasterOnPlane::units; else empty
   std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< plane of a local grid with a position on the globe
-  std::string version = {};  ///< set by sinks, changes with any tile: clients request tiles with it, to bypass old
-                             ///< cached copies
+  std::string version = {};  ///< set by sinks, and different if any tile differs: clients add it to requests, to bypass
+                             ///< old cached copies
 };
 
 /// The suffix of lengths for LayerFacts::units: " m" for metres and for unnamed units, else empty.
 inline const char* unit_behind(std::string_view units) { return units.empty() || units == "metre" ? " m" : ""; }
 
-/// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients request first. Without report.levels,
-/// errors of tiles are omitted, since the tiles do not exist yet.
+/// Returns the bytes of layer.json, for "quantized-mesh-1.0": the file that clients request first. Without
+/// report.levels, errors of tiles are omitted, since the tiles do not exist yet.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 
@@ -144,9 +145,9 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
 //
 //   container     the container's header, index and tables are correct
 //   availability  each announced tile exists, each existing tile is announced, with its parent; all roots exist
-//   file          each tile can be decoded, and all its indices are those of vertices
+//   file          each tile can be decoded, and all its indices refer to vertices
 //   coverage      triangles cover the tile once: no flipped triangle, no gap, no vertex in the middle of an edge
-//   edge list     the lists of the four edges contain exactly the vertices there
+//   edge list     the lists of the four edges contain exactly the vertices on them
 //   border        neighbours decode to the same vertices, heights in single precision, and normals, also at the four
 //                 tiles of a corner, around the antimeridian and at the poles
 //   header        heights, bounding sphere and centre fit all vertices
@@ -176,8 +177,8 @@ const char* name_of(TileFaultKind kind);
 
 /// The position of a local grid's raster on the globe.
 struct CheckedPlace {
-  /// Longitude and latitude in degrees, and the zero of the heights in metres above the ellipsoid, of a position in
-  /// cells east and north of the south-western sample; not finite where undefined.
+  /// Returns longitude and latitude in degrees, and the zero of the heights in metres above the ellipsoid; not finite
+  /// where undefined. The position is given in cells east and north of the south-western sample.
   std::function<std::array<double, 3>(double east, double north)> find;
   Geodetic ellipsoid = {};
 };
@@ -199,7 +200,7 @@ struct TileCheckOptions {
   /// Ellipsoid of the globe. DEFAULT: the one in the set's metadata, else WGS 84.
   std::optional<Geodetic> ellipsoid = std::nullopt;
   std::optional<TileGrid> grid = std::nullopt;  ///< DEFAULT: by the projection in layer.json, else geographic.
-  std::size_t most_faults = 1;                  ///< max number of faults described, for each kind
+  std::size_t most_faults = 1;                  ///< max number of described faults of each kind
   Run run = {};                                 ///< threads and progress, passes "check" and "nodes"
 };
 
@@ -208,12 +209,11 @@ struct TileFault {
   std::string sentence;  ///< names the tile
 };
 
-/// The results for a level.
 struct CheckedLevel {
   std::uint64_t tiles = 0, triangles = 0;
-  std::uint64_t edges = 0, edges_apart = 0;      ///< edges that two tiles, or a tile and a pole, share; number of these
-                                                 ///< that differ
-  std::uint64_t corners = 0, corners_apart = 0;  ///< corners shared by diagonal tiles; number of these that differ
+  std::uint64_t edges = 0, edges_apart = 0;      ///< edges that two tiles, or a tile and a pole, share; those that
+                                                 ///< differ
+  std::uint64_t corners = 0, corners_apart = 0;  ///< corners shared by diagonal tiles; those that differ
   double gap = 0;                                ///< the largest gap between two edges, metres
   double sag = 0;                                ///< depth of flat triangles below the earth's curve, metres
   std::optional<double> promised_node_error, promised_bound, promised_source_error;  ///< values declared by the set
@@ -230,14 +230,14 @@ struct TileCheck {
   std::vector<CheckedLevel> levels;  ///< 0 … the finest
   std::array<std::uint64_t, kTileFaultKinds> faults{};  ///< by kind
   std::vector<TileFault> described;                     ///< in the order of the kinds
-  std::uint64_t nodes = 0;                              ///< number of comparisons of a tile with a node
+  std::uint64_t nodes = 0;                              ///< comparisons of a tile with a node
 
   std::uint64_t count() const;
   bool holds() const { return count() == 0; }
 };
 
 /// Checks a whole set. The result does not depend on the number of threads. Fails with kCancelled, as the nodes' source
-/// does, and with kUsage for `cells` that do not fit the set's levels; faults of the set are in the result.
+/// does, and with kUsage for `cells` that do not fit the set's levels. Faults of the set are listed in the result.
 ///
 /// Memory: that of the reader, edges of a row of tiles (some 2 kB a tile), 200 bytes a tile for 3D Tiles, and with
 /// nodes 70 MB. Cost: each tile is decoded once, or twice with nodes; each node is read once, and nodes and samples are

@@ -47,25 +47,25 @@ struct RegionGrid {
   std::optional<double> beyond = {};               ///< tolerance elsewhere; nothing: no bound. REQUIRED if falloff > 0.
 };
 
-/// A tolerance for each sample, row-major, as Tolerances::values: t in a region of tolerance t, t + (beyond − t) ·
-/// min(1, d / falloff) at a distance d from it. The smallest of several regions counts; +infinity without any. The
-/// samples nearest to rings and lines belong to their region, so a region smaller than a cell has samples too.
-/// Distances are those between samples (exact, Euclidean). Tolerances are rounded down to float32. `found`: for each
-/// region, true if any part of it lies in the raster; may be null. REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >=
-/// 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross) for each region. Memory: the
-/// result, and that of RegionBounds.
+/// Computes a tolerance for each sample, row-major, for Tolerances::values. It is t in a region of tolerance t, and t +
+/// (beyond − t) · min(1, d / falloff) at a distance d from the region. Of several regions, the smallest tolerance
+/// counts; +infinity without any. The samples nearest to rings and lines belong to their region, so a region smaller
+/// than a cell also has samples. Distances are those between samples (exact, Euclidean). Tolerances are rounded down to
+/// float32. `found`: for each region, true if any part of it lies in the raster; may be null. REQUIRES: cols, rows,
+/// cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross)
+/// for each region. Memory: the result, and that of RegionBounds.
 std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
                                      std::vector<bool>* found = nullptr);
 
-/// The same tolerances, bit for bit, computed on reading.
+/// The tolerances of region_tolerances(), bit for bit, computed on reading.
 struct RegionBounds {
   /// For Tolerances::source and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples). If falloff
-  /// > 0, each region near it costs at least as much as rows of a thousand samples, or as rows six times as wide as the
+  /// > 0, each region near the window costs at least as much as for rows of a thousand samples, or six times the
   /// falloff.
   std::shared_ptr<const SampleSource> source;
   std::vector<bool> found;  ///< for each region, true if any part of it lies in the raster
-  /// Bytes of memory: for each region 8 per column and 8 per sample on its outline, and the buffers of `threads`
-  /// readers.
+  /// Bytes of memory: 8 for each region and column, 8 for each sample on a region's outline, and the buffers of
+  /// `threads` readers.
   std::uint64_t bytes = 0;
 };
 /// `threads`: as Run::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().
@@ -75,15 +75,16 @@ RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGri
 struct Tolerances {
   /// A bound for each sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, and
   /// |error| <= max_error if given; samples are ranked by |error| / tolerance. Tolerances are a goal: if they do not
-  /// fit a budget, one factor enlarges them all (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
+  /// fit a budget, one factor enlarges all of them (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
   std::span<const float> values = {};
-  /// The same for a field with a source, read in windows like its samples (no NaN). simplify() fails with kUsage for
-  /// `values` and a field with a source, and for `source` and samples in memory. Borrowed. DEFAULT: none.
+  /// The same tolerances for a field with a source, read in windows like its samples; never NaN. simplify() fails with
+  /// kUsage for `values` with a field that has a source, and for `source` with samples in memory. Borrowed. DEFAULT:
+  /// none.
   const SampleSource* source = nullptr;
   /// A weight for each sample, at least 0 and finite (Terra's importance mask): samples are ranked by weight · |error|,
   /// and max_error bounds it. Weight 0 means no bound. Borrowed. DEFAULT: empty, all 1.
   std::span<const float> weights = {};
-  /// The same for a field with a source, as `source`. Borrowed. DEFAULT: none.
+  /// The same weights for a field with a source. Borrowed. DEFAULT: none.
   const SampleSource* weights_source = nullptr;
   /// Samples without a bound, which never become vertices by their errors. Borrowed. DEFAULT: none.
   std::span<const SampleAt> ignored = {};
@@ -110,13 +111,13 @@ struct OwnedTolerances {
 /// `grid`: the grid of the heights, with the tolerance beyond the regions, as for region_tolerances(). At least one of
 /// raster and regions is required.
 ///
-/// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call becomes its owner. The
-/// regions are not needed after the call. With in_windows the call reads the whole raster once. Fails with kUsage
-/// without raster and regions, for a raster of another size than the grid, and for one with a source if values are
-/// requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample has a bound from the
-/// raster, a region or the tolerance beyond them. Fails as the raster's source does, and with kCancelled. REQUIRES: for
-/// regions, the grid as in region_tolerances(). Cost: O(samples) for the raster; for regions that of
-/// region_tolerances() or make_region_bounds().
+/// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call becomes the owner of
+/// `raster`. The regions are not needed after the call. With in_windows, the call reads the whole raster once. Fails
+/// with kUsage without raster and regions, for a raster of another size than the grid, and for a raster with a source
+/// if values are requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample has a
+/// bound from the raster, a region or the tolerance beyond them. Fails as the raster's source does, and with
+/// kCancelled. REQUIRES: for regions, the grid as in region_tolerances(). Cost: O(samples) for the raster; for regions
+/// that of region_tolerances() or make_region_bounds().
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
                                         const RegionGrid& grid, const ToleranceOptions& options = {});
 
@@ -128,8 +129,8 @@ struct OwnedWeights {
   bool empty() const { return values.empty() && !source; }
 };
 
-/// Makes the weights from a raster of weights: 0 where the raster has no value; all weights are divided by the largest
-/// one if that is above 1. The call becomes the owner of the raster, and with in_windows reads it once. Fails with
+/// Makes the weights from a raster of weights; 0 where the raster has no value. If the largest weight is above 1, all
+/// weights are divided by it. The call becomes the owner of the raster, and with in_windows reads it once. Fails with
 /// kInput, naming the raster's file, for a negative weight and if no weight is above 0; with kUsage for a raster with a
 /// source if values are requested; as the raster's source does; with kCancelled. Cost: O(samples).
 Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options = {});

@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// Called with each block that an Array gets from malloc(). DEFAULT: null, nothing is called. A program sets it before
-/// it makes any array.
+/// Called with each block that an Array gets from malloc(). DEFAULT: null, no call. A program must set it before it
+/// creates any array.
 inline void (*after_allocation)(void* block, std::size_t size) = nullptr;
 
 }  // namespace scarp

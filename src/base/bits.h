@@ -1,4 +1,4 @@
-// Parts of <bit> and <memory> that some standard libraries lack (libc++ 13, which Emscripten 3.1 brings).
+// Parts of <bit> and <memory> that some standard libraries lack (libc++ 13 in Emscripten 3.1).
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// The position of the box's centre on the curve.
+/// The position of a box's centre on the curve.
 std::uint64_t curve_place_of(const Box& box) {
   const auto twice = [](std::int32_t a, std::int32_t b) { return static_cast<std::uint64_t>(std::int64_t{a} + b); };
   return curve_place(twice(box.x0, box.x1), twice(box.y0, box.y1));

@@ -1,5 +1,5 @@
 // A search tree for intersecting boxes, packed in the order of a space-filling curve (Kamel and Faloutsos 1993, with
-// Morton's curve instead of Hilbert's). Clusters, long and short boxes add no cost.
+// Morton's curve instead of Hilbert's). Clusters and boxes of very different lengths add no cost.
 #pragma once
 
 #include <array>
@@ -28,11 +28,12 @@ class BoxTree {
   /// REQUIRES: coordinates in [0, kMaxCoordinate]. Cost: O(n log n).
   explicit BoxTree(std::span<const Box> boxes);
 
-  /// The boxes in the tree's order: neighbours in it are near each other. order()[k] is an index into the boxes given.
+  /// The boxes in the tree's order, in which neighbours are near each other. order()[k] is an index into the given
+  /// boxes.
   std::span<const std::uint32_t> order() const { return order_; }
   const Box& box_at(std::size_t place) const { return levels_[0][place]; }
 
-  /// Size of groups of neighbours in that order; the last may be smaller. A box near one member is near all.
+  /// Size of groups of neighbours in that order; the last group may be smaller. A box near one member is near all.
   static constexpr std::size_t kGroup = 8;
   std::size_t group_count() const { return (order_.size() + kGroup - 1) / kGroup; }
   const Box& hull_of_group(std::size_t group) const { return levels_[1][group]; }
@@ -79,7 +80,7 @@ class BoxTree {
   }
 
   std::vector<std::uint32_t> order_;
-  std::vector<std::vector<Box>> levels_;  ///< 0: the boxes; above: the hull of each kFan; the last is one box
+  std::vector<std::vector<Box>> levels_;  ///< 0: the boxes; then hulls of kFan boxes each; the last is one box
 };
 
 }  // namespace scarp

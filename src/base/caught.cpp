@@ -13,7 +13,7 @@ tl::unexpected<Error> caught(ErrorKind kind, std::string_view doing) {
     throw;
   } catch (const std::bad_alloc&) {
     return fail(kind, fmt::format("not enough memory to {}", doing));
-  } catch (const std::length_error&) {  // a container larger than any memory
+  } catch (const std::length_error&) {  // from a container larger than any memory
     return fail(kind, fmt::format("not enough memory to {}", doing));
   } catch (const std::exception& error) {
     return fail(ErrorKind::kInternal, fmt::format("cannot {}: {}", doing, error.what()));

@@ -17,7 +17,7 @@ inline std::uint64_t spread_bits(std::uint64_t bits) {
 /// The position of (x, y) along the curve, both below 2^32.
 inline std::uint64_t curve_place(std::uint64_t x, std::uint64_t y) { return spread_bits(x) | spread_bits(y) << 1; }
 
-/// The inverse of spread_bits(): every other bit, from the lowest on.
+/// The inverse of spread_bits(): every second bit, from the lowest on.
 inline std::uint64_t gather_bits(std::uint64_t bits) {
   bits &= 0x5555555555555555;
   bits = (bits | bits >> 1) & 0x3333333333333333;

@@ -3,7 +3,7 @@
 
 namespace scarp {
 
-/// high + low is the exact result, |low| <= ulp(high) / 2, unless something overflows or underflows.
+/// high + low is the exact result, |low| <= ulp(high) / 2, without overflow and underflow.
 struct ExactPair {
   double high, low;
 };

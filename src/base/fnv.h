@@ -1,4 +1,4 @@
-// FNV-1a in 64 bits: a hash of bytes, the same on every machine. Collisions are possible.
+// FNV-1a in 64 bits: a hash of bytes that is the same on every machine. Collisions are possible.
 #pragma once
 
 #include <cstdint>

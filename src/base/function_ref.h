@@ -10,8 +10,8 @@ namespace scarp {
 template <class Signature>
 class FunctionRef;
 
-/// Borrows the callable that it was constructed from. As a parameter it accepts any callable, as std::function does;
-/// its size is two pointers.
+/// Borrows the callable that it was constructed from. As a parameter it accepts any callable, like std::function; its
+/// size is two pointers.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -18,7 +18,7 @@ void map_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes, 
   const auto begin = reinterpret_cast<std::uintptr_t>(data);
   const std::uintptr_t start = (begin + kLargestPage - 1) & ~(kLargestPage - 1);
   const std::uintptr_t stop = (begin + bytes) & ~(kLargestPage - 1);
-  // Pages that fail are mapped when written.
+  // If this fails, pages are mapped when written.
   parallel_for_parts(stop - start, kTogether, threads, [&](std::size_t first, std::size_t end) {
     (void)madvise(reinterpret_cast<void*>(start + first), end - first, MADV_POPULATE_WRITE);
   });

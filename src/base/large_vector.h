@@ -6,11 +6,11 @@
 
 namespace scarp {
 
-/// Maps the memory now, with several threads at once, where the system supports it. Otherwise pages are mapped when
-/// they are first written.
+/// Maps the memory immediately, with several threads, if the system supports it. Otherwise pages are mapped when they
+/// are first written.
 void map_pages(void* data, std::size_t bytes, int threads);
 
-/// REQUIRES: empty. New elements are 0. Most of the time is the system's, for mapping pages.
+/// New elements are 0. The system spends most of the time on mapping pages. REQUIRES: `values` is empty.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t size, int threads) {
   values.reserve(size);

@@ -8,11 +8,11 @@
 
 namespace scarp {
 
-/// The remedy at the end of an error message: it makes the mesh smaller. A budget search replaces it, since its runs
-/// know no budget.
+/// The remedy at the end of an error message, which makes the mesh smaller. A budget search replaces it, since the runs
+/// of a search have no budget of their own.
 inline constexpr std::string_view kLargerError = "a larger max error";
 
-/// Bytes of the process, from the caller's options; without a limit nothing is rejected.
+/// Memory of the process, from the caller's options. Without a limit, nothing is rejected.
 struct MemoryBudget {
   std::uint64_t limit = 0;       ///< 0: none
   std::uint64_t taken = 0;       ///< bytes used by the caller: the program, the samples
@@ -20,16 +20,16 @@ struct MemoryBudget {
 
   bool is_limited() const { return limit > 0; }
   std::uint64_t rest() const { return limit > taken ? limit - taken : 0; }
-  /// The number of threads, from 1 to `threads`, that fit a quarter of the rest at `bytes` each.
+  /// The number of threads, from 1 to `threads`, that fit a quarter of the remaining memory at `bytes` each.
   int threads_within(std::uint64_t bytes, int threads) const;
 
   /// Fails with kMemory if a small mesh does not fit next to the memory that a run always uses.
   Result<void> check_start(std::uint64_t work) const;
-  /// Fails with kMemory if `work` and so many vertices do not fit. `share`: the finished fraction of the run, to
+  /// Fails with kMemory if `work` and `vertices` vertices do not fit. `share`: the finished fraction of the run, to
   /// extrapolate the requirement.
   Result<void> check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const;
-  /// Fails with kMemory if the `bytes` found so far, in that share of the raster, do not fit. `what` they are;
-  /// `advice`: what else to do.
+  /// Fails with kMemory if the `bytes` found so far do not fit, extrapolated from that share of the raster. `what`:
+  /// name of the data; `advice`: another remedy.
   Result<void> check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const;
 };
 

@@ -37,7 +37,7 @@ class FirstFailure {
   std::exception_ptr exception_;
 };
 
-/// Joins its threads in any case.
+/// Joins its threads on destruction.
 class Pool {
  public:
   explicit Pool(std::size_t most) { threads_.reserve(most); }
@@ -129,7 +129,7 @@ class TaskOrder {
  public:
   TaskOrder(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}
 
-  /// The next task; nothing if none is left. With `may_wait` waits for commits while too many tasks are uncommitted.
+  /// The next task; nothing if none is left. With `may_wait`, waits for commits while too many tasks are uncommitted.
   std::optional<std::size_t> start(bool may_wait) {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_free = [this] { return is_over() || next_ < committed_ + ahead_; };
@@ -151,8 +151,8 @@ class TaskOrder {
       failure_ = std::move(exception);
     });
   }
-  /// The task to commit next, if it has ended; `may_wait`: waits until then. Nothing if none is left, or all is
-  /// stopped.
+  /// The task to commit next, if it has ended; with `may_wait`, waits for its end. Nothing if no task is left, or all
+  /// are stopped.
   std::optional<std::size_t> ready(bool may_wait) {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto is_ready = [this] { return stopped_ || committed_ == ended_.size() || ended_[committed_]; };

@@ -25,17 +25,18 @@ void parallel_for_parts(std::size_t count, std::size_t size, int threads,
 
 /// Calls task(i, worker) for i in 0 … count − 1 as parallel_for() does. `worker`, in 0 … thread_count(threads) − 1,
 /// identifies the thread (for scratch memory). Once task i has ended, commit(i) is called on the calling thread, in
-/// ascending order; it returns false to stop everything. Tasks start only a few per thread ahead of the next commit, so
-/// that few results wait. Exceptions: as parallel_for(); one thrown by commit also ends the loop.
+/// ascending order; commit() returns false to stop everything. Only a few tasks per thread start ahead of the next
+/// commit, so few results wait. Exceptions: as parallel_for(); an exception of commit() also ends the loop.
 void parallel_in_order(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t)> task,
                        FunctionRef<bool(std::size_t)> commit);
 
 /// Calls beside() on another thread while the calling thread calls rest(); returns when both have ended. With one
-/// thread (or where the machine allows no more) beside() runs first. Neither may read what the other writes.
+/// thread (or where the machine allows no more) beside() runs first. Neither may read data that the other writes.
 /// Exceptions: as parallel_for(), with beside() as the lower index.
 void run_beside(int threads, FunctionRef<void()> beside, FunctionRef<void()> rest);
 
-/// Lowers `value` to `least` if it is larger. Threads may call this at once while none accesses the value otherwise.
+/// Lowers `value` to `least` if it is larger. Threads may call this concurrently if none accesses the value in another
+/// way.
 inline void lower_together(std::uint32_t& value, std::uint32_t least) {
   // std::atomic_ref is missing from some libraries.
   std::uint32_t now = __atomic_load_n(&value, __ATOMIC_RELAXED);

@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// Stable sort by key(item), a number of 64 bits. Bytes that are equal in all keys cost nothing. Needs a second array
-/// of the same size. Cost: O(n) per byte; some 5 ns per item for keys of 32 bits.
+/// Stable sort by key(item), a 64-bit number. Bytes that are equal in all keys cost no time. Needs a second array of
+/// the same size. Cost: O(n) per byte; some 5 ns per item for 32-bit keys.
 template <class T, class Key>
 void radix_sort(std::vector<T>& items, const Key& key) {
   constexpr std::size_t kFew = 128;

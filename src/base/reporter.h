@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// The finished share of the work when the error has fallen from `first` to `now`. The error falls about as the square
-/// root of the vertices grows, so the share is a ratio of squares. 0 for a goal of 0.
+/// The finished share of the work when the error has fallen from `first` to `now`. The error is roughly inversely
+/// proportional to the square root of the vertices, so the share is a ratio of squares. 0 for a goal of 0.
 double error_progress(double first, double now, double goal);
 
 /// Reports progress at most ten times a second. report() returns false once the callback has asked to stop.
@@ -26,7 +26,8 @@ class Reporter {
   double fraction_ = 0;
 };
 
-/// A callback for a part of the whole: `share` of it, starting at `begin`. Borrows `whole`; empty if `whole` is.
+/// A callback for a part of the work of `whole`: `share` of it, starting at `begin`. Borrows `whole`; empty if `whole`
+/// is.
 ProgressCallback part_of(const ProgressCallback& whole, double begin, double share);
 
 }  // namespace scarp

@@ -1,4 +1,5 @@
-// Rings of polygons by bands of y: the side of a place, and the edges near it. In double, for places off any lattice.
+// Rings of polygons by bands of y, to find the side of a place and the edges near it. In double, for places off any
+// lattice.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class RingBands {
     Place from, to;
   };
 
-  /// A ring's last corner is followed by its first.
+  /// Each ring's last corner connects to its first.
   explicit RingBands(const std::vector<PlaceRing>& rings) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const PlaceRing& ring : rings) {
@@ -40,7 +41,7 @@ class RingBands {
 
   const Edge& edge(std::size_t e) const { return edges_[e]; }
 
-  /// By the rule of even and odd; a place on an edge counts as inside.
+  /// True if the place is inside by the even-odd rule, or on an edge.
   bool holds(double x, double y) const {
     bool is_inside = false;
     for (const std::size_t e : bands_[band_of(y)]) {
@@ -55,7 +56,7 @@ class RingBands {
     return is_inside;
   }
 
-  /// Calls visit(edge) once for the edges in the bands of a segment.
+  /// Calls visit(edge) once for each edge in the bands of a segment.
   template <class Visit>
   void each_near(double y_from, double y_to, const Visit& visit) const {
     std::vector<std::size_t> near;

@@ -18,8 +18,8 @@ void sort_bytes(std::byte* items, std::size_t count, std::size_t size,
 }  // namespace detail
 
 /// Stable sort by before(a, b). All types share one loop, so a call costs few bytes of code but more time than
-/// std::sort(). Meant for sorts that are short compared with the work around them. Needs a second array of the same
-/// size, and 8 bytes per item. REQUIRES: fewer than 2^32 items.
+/// std::sort(). For sorts that are short compared with the work around them. Needs a second array of the same size, and
+/// 8 bytes per item. REQUIRES: fewer than 2^32 items.
 template <class Items, class Before = std::less<>>
 void sort_rarely(Items& items, const Before& before = {}) {
   using Item = std::remove_reference_t<decltype(items[0])>;

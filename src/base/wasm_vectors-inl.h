@@ -1,7 +1,7 @@
-// Parts that Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations for which the machine has one
-// instruction but compilers there emit many.
+// Functions that Highway 1.0 lacks under WebAssembly: vectors of doubles, and operations for which the machine has one
+// instruction but compilers emit many.
 //
-// SCARP_HAVE_FLOAT64 is defined where vectors of doubles exist. Functions in hwy have the meaning of Highway's
+// SCARP_HAVE_FLOAT64 is nonzero where vectors of doubles exist. Functions in hwy have the meaning of Highway's
 // functions of the same names. Those in scarp give the same bits on all instruction sets.
 
 // An include guard like Highway's: included once for every instruction set.
@@ -57,7 +57,7 @@ HWY_API Vec128<float, 2> DemoteTo(Simd<float, 2, 0>, DoubleVec v) { return {wasm
 
 namespace scarp::HWY_NAMESPACE {
 
-/// For float32. REQUIRES: none is NaN.
+/// For float32. REQUIRES: no value is NaN.
 template <class V>
 HWY_INLINE V larger_of(V a, V b) {
   static_assert(sizeof(hwy::HWY_NAMESPACE::TFromV<V>) == 4);
@@ -77,11 +77,11 @@ HWY_INLINE V smaller_of(V a, V b) {
 #endif
 }
 
-/// Truncated doubles. REQUIRES: not below 0, or whole; below 2³¹ in magnitude. Other lanes are unspecified.
+/// Truncated doubles, for lanes below 2³¹ in magnitude that are at least 0 or integers. Other lanes are unspecified.
 template <class DI, class V>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<DI> whole_parts([[maybe_unused]] DI di, V v) {
 #if HWY_TARGET == HWY_WASM
-  // The low bits of the sum hold the nearest integer; where that exceeds v, subtract one.
+  // The low bits of the sum are the nearest integer; where it exceeds v, subtract one.
   const auto whole = wasm_f64x2_splat(0x1.8p52);
   const auto sum = wasm_f64x2_add(v.raw, whole);
   const auto is_above = wasm_f64x2_gt(wasm_f64x2_sub(sum, whole), v.raw);
@@ -102,7 +102,7 @@ HWY_INLINE bool none_of([[maybe_unused]] D d, M mask) {
 #endif
 }
 
-/// |values|, float32, where `meant` is true and the value is not NaN; else 0.
+/// Float32 |values| where `meant` is true and the value is not NaN; else 0.
 template <class V, class M>
 HWY_INLINE V magnitudes(V values, M meant) {
   namespace hn = hwy::HWY_NAMESPACE;

@@ -1,4 +1,4 @@
-// Announced tiles compared with the tiles present.
+// Comparison of the announced tiles with the present ones.
 #pragma once
 
 #include <vector>

@@ -88,8 +88,8 @@ void BorderWatch::add(TileEdges tile) {
     if (south_east != nullptr && !mine.empty() && !south_east->sides[kNorth].empty())
       compare_corner(*south_east, south_east->sides[kNorth].front(), tile, mine.back());
   }
-  // Drop sides that are no longer needed. The row above needs northern ones; the eastern neighbour and, for the first
-  // column, the last one need the others.
+  // Drop sides that are no longer needed. The row above needs northern sides; the eastern neighbour and, for the first
+  // column, the last column need the others.
   tile.sides[kSouth] = {};
   if (x > 0) tile.sides[kWest] = {};
   if (west != row_.tiles.end() && x > 0) west->second.sides[kEast] = {};
@@ -124,7 +124,7 @@ void BorderWatch::compare(const TileEdges& here, TileSide side, const TileEdges&
 void BorderWatch::compare_corner(const TileEdges& here, const EdgeVertex& mine, const TileEdges& there,
                                  const EdgeVertex& theirs) {
   ++level_.corners;
-  // Here positions along the edges are both ends.
+  // Positions along the edges need no comparison here: both are ends.
   const bool are_equal = mine.normal == theirs.normal &&
                          (format_ == TileFormat::kGlb ? mine.key == theirs.key : mine.key[1] == theirs.key[1]);
   if (are_equal) return;

@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// A vertex on an edge. Two are the same if `key` and `normal` are.
+/// A vertex on an edge. Two vertices are the same if their `key` and `normal` are equal.
 struct EdgeVertex {
   double along = 0, height = 0;  ///< 0 … 32767; metres
   Place key{};                   ///< position that neighbours must decode identically
@@ -30,10 +30,11 @@ TileEdges take_edges(const ClientTile& tile);
 /// The largest height difference between two edges, metres.
 double largest_gap(const TileEdge& one, const TileEdge& other);
 
-/// Compares the tiles of one level, added in rows from the south, each from the west. Holds a row of edges.
+/// Compares the tiles of one level. Add them in rows from the south, and from the west in each row. Stores a row of
+/// edges.
 class BorderWatch {
  public:
-  /// Borrows both; adds counts and faults to them.
+  /// Borrows `level` and `faults`; adds counts and faults to them.
   BorderWatch(TileFormat format, const TileGrid& grid, int z, CheckedLevel& level, std::vector<TileFault>& faults)
       : format_(format), grid_(grid), z_(z), level_(level), faults_(faults) {}
 

@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// 0 … 32767 of a tile's side.
+/// The length of a tile's side: positions are 0 … 32767.
 inline constexpr double kWholeTile = 32767;
 
 enum TileSide : std::size_t { kWest, kSouth, kEast, kNorth };
@@ -25,18 +25,18 @@ struct ClientTile {
   TileFormat format = TileFormat::kQuantizedMesh;
   DegreeBox box;
   bool is_flat = false;  ///< on the plane of a local grid
-  /// Positions 0 … 32767 from west, from south; integers except in GLB files, which hold positions in space.
+  /// Positions 0 … 32767 from west, from south; integers except in GLB files, which store positions in space.
   std::vector<double> u, v;
   std::vector<double> heights;  ///< metres above the world
   std::vector<Place> places;
   std::vector<std::array<float, 3>> normals;  ///< normals of the vertices as stored, not decoded; empty if absent
-  std::vector<float> uvs;                     ///< per vertex its position in `image`; empty if absent
+  std::vector<float> uvs;                     ///< by vertex, its position in `image`; empty if absent
   GlbImage image;                             ///< empty if absent
   std::vector<std::uint32_t> triangles;
-  std::vector<Place> skirt;  ///< pairs: on an edge, and below it; empty if absent
+  std::vector<Place> skirt;  ///< pairs: a point on an edge, and one below it; empty if absent
   std::vector<std::uint32_t> skirt_triangles;
   std::vector<std::uint8_t> water_mask;             ///< empty if absent
-  std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices in the order of the file
+  std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide, vertices in the order of the file
 
   std::optional<Place> centre;
   double low = 0, high = 0;  ///< heights in the tile's header
@@ -46,7 +46,7 @@ struct ClientTile {
   double resolution = 0;  ///< smallest distance that the GLB file resolves, metres
 };
 
-/// `facts`: the subtree's data about the tile; null: the file's own. Fails with kInput.
+/// `facts`: the subtree's data about the tile; null: use the file's data. Fails with kInput.
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
                                       const TileGrid& grid, const World& world, const TileFacts* facts);
 

@@ -55,7 +55,7 @@ bool faces_down(const ClientTile& tile, std::size_t k) {
   const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
   if (tile.format != TileFormat::kGlb)
     return (tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) <= (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a]);
-  // On the map: a needle along a parallel may face down in space, where its long side is straight.
+  // The test is on the map: a needle along a parallel may face down in space, where its long side is straight.
   const Place ab = tile.places[b] - tile.places[a], ac = tile.places[c] - tile.places[a];
   const double longest = std::max({length(ab), length(ac), length(ac - ab)});
   const auto is_turned = [&](double area) { return area < -3 * tile.resolution * longest; };
@@ -157,7 +157,7 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
   });
   if (wall != heights.end())
     add(fmt::format("has two heights at one place, u {}, v {}", wall->first >> 16, wall->first & 0xffff));
-  // Integers below 2^53: exact.
+  // Sums of integers below 2^53 are exact.
   double area = 0;
   for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
     const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
@@ -168,7 +168,7 @@ void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
 }
 
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults) {
-  // Above the blocks tiles end at one of 256 nodes: the raster's end, or the next one beyond it.
+  // Above the blocks, tiles end at one of 256 nodes: the raster's end, or the next node beyond it.
   constexpr double kCoarseSteps = 256;
   const LocalRaster& raster = grid.local;
   const double beyond = std::max(0.0, (tile.box.east - tile.box.west) / kCoarseSteps - 1);

@@ -63,7 +63,7 @@ void check_header(const ClientTile& tile, std::vector<TileFault>& faults) {
   if (farthest > tile.radius + slack)
     add(fmt::format("has a vertex {:.3f} m outside of its bounding sphere, whose radius is {:.3f} m",
                     farthest - tile.radius, tile.radius));
-  // Much larger spheres draw correctly; a sphere at another place does not.
+  // Much larger spheres do not spoil drawing; a sphere at another place does.
   if (tile.radius > 4 * farthest + 1000)
     add(fmt::format("has a bounding sphere of {:.3f} m around vertices at most {:.3f} m from its centre", tile.radius,
                     farthest));
@@ -81,7 +81,7 @@ void check_horizon(const ClientTile& tile, const World& world, std::vector<TileF
   };
   const double far = length(point);
   if (!std::isfinite(far) || !(far > 0)) return add();
-  // Points below the surface count as on it.
+  // Points below the surface count as surface points.
   std::vector<Place> vertices;
   for (const Place& at : tile.places) {
     const Place place = world.scaled(at);

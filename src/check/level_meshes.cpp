@@ -78,7 +78,7 @@ class Laying {
   void add(ClientTile tile) {
     std::vector<Place> places;
     for (std::size_t v = 0; v < tile.u.size(); ++v) places.push_back(place_of(tile, v));
-    // A step of a tile: more than the rounding of a vertex, and less than the width of the map.
+    // One step of a tile's positions, which exceeds the rounding of a vertex and is less than the width of the map.
     const double near = (tile.box.east - tile.box.west) * map_.metres_east / kWholeTile;
     for (const auto& edge : tile.edges) {
       for (const std::uint32_t v : edge) {
@@ -96,7 +96,7 @@ class Laying {
     tiles_.push_back(std::move(laid));
   }
 
-  /// Rounds equally in all tiles, so that neighbours still meet.
+  /// Rounds all tiles to the same steps, so that neighbours still meet.
   LevelMesh take() {
     Place extents{};
     for (const LevelTile& tile : tiles_) {

@@ -183,7 +183,7 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& w
                                   std::abs(tile_.heights[c] - background_)});
     double error = 0;
     if (most <= verdict.node_error || (std::isfinite(bound_) && most <= bound_ / 100)) {
-      // The corners bound the error at nodes, and it is small.
+      // The corners bound the error at nodes, and this bound is small enough.
       error = most;
     } else {
       const auto top = static_cast<std::int64_t>(first_row_), bottom = top + static_cast<std::int64_t>(steps_);
@@ -206,7 +206,7 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& w
               ((triangle.cols[1] - triangle.cols[0]) * y - x * (triangle.rows[1] - triangle.rows[0])) / triangle.area;
           error = std::max(error, std::abs(height + share_b * to_b + share_c * to_c - background_));
         };
-        // Differences are largest at the ends of the intervals outside.
+        // Differences are largest at the ends of the outer intervals.
         double next = from;
         if (node_row >= inside.from_row && node_row <= inside.to_row) {
           for (const double shift : {-turn, 0.0, turn}) {

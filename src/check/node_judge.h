@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Heights of a rectangle of nodes, whose columns and rows count from the western and northern ends of the grid.
+/// Heights of a rectangle of nodes. Columns count from the western end of the grid, rows from the northern.
 struct NodeBlock {
   NodeWindow window;
   World world;
@@ -32,7 +32,7 @@ struct NodeBlock {
   static NodeBlock begin(const NodeWindow& window, const World& world);
 };
 
-/// Nodes counted from the western and northern ends of the grid, both ends inclusive.
+/// Columns and rows of nodes, counted from the western and northern ends of the grid, inclusive.
 struct NodeRectangle {
   std::int64_t from_col = 0, to_col = -1, from_row = 0, to_row = -1;
 };
@@ -50,13 +50,13 @@ struct NodeVerdict {
 
 class NodeJudge {
  public:
-  /// `steps`: node intervals along a side of the tile, on the lattice of the block. `bound`: a larger distance is
-  /// measured again, from the node to the nearest of all triangles.
+  /// `steps`: node intervals along a side of the tile, on the lattice of the block. `bound`: larger distances are
+  /// measured again, to the nearest of all triangles.
   NodeJudge(const ClientTile& tile, std::int64_t steps, double background, double bound, const TileGrid& grid);
 
   /// Judges the nodes of the block that lie under the tile. REQUIRES: columns of the block lie within the grid.
   NodeVerdict judge(const NodeBlock& block) const;
-  /// Judges all nodes under the tile outside the rectangle (and outside its copy one turn away). They have the
+  /// Judges all nodes under the tile outside the rectangle (and outside its copy one turn away). These nodes have the
   /// background's height. Distances are upper bounds.
   NodeVerdict judge_outside(const NodeRectangle& inside, const World& world) const;
 
@@ -68,9 +68,10 @@ class NodeJudge {
     double area = 0;  ///< twice, signed
   };
   OnLattice on_lattice(std::size_t k) const;
-  /// Columns of a row in a triangle; from > to if none.
+  /// Range of columns of a row in a triangle; first > second if none.
   static std::pair<double, double> columns_of(const OnLattice& triangle, double row);
-  /// The distance to the first triangle within the bound; if none is, infinity or that of the nearest one around.
+  /// The distance to the first triangle found within the bound; otherwise the least distance among the triangles
+  /// around, or infinity.
   double nearest(const Place& node) const;
   /// Position of a row of nodes in steps from the tile's northern edge; rows may be unevenly spaced.
   double line_of(std::int64_t row) const;

@@ -21,7 +21,7 @@ namespace {
 /// Node intervals along a side of a block: 67 MB.
 constexpr std::int64_t kMostSteps = 4096;
 constexpr int kRowsTogether = 256;
-/// Rounding may put a measured error above its bound: relative, and in metres.
+/// Allowed excess of a measured error over its bound by rounding: relative, and in metres.
 constexpr double kRounding = 1e-9, kDust = 1e-6;
 
 std::uint64_t key_of_tile(TileId id) { return std::uint64_t{id.y} << 32 | id.x; }
@@ -285,7 +285,7 @@ class NodesCheck {
   TileGrid grid_;
   World world_;
   Reporter reporter_;
-  int finest_ = 0, depth_ = 0, cells_ = 128;  ///< blocks are tiles of level finest_ − depth_
+  int finest_ = 0, depth_ = 0, cells_ = 128;  ///< blocks are the tiles of level finest_ − depth_
   double background_ = 0;
   std::int64_t first_col_ = 0, columns_ = 1;  ///< first column and number of blocks; they may wrap past the last column
   std::uint32_t first_row_ = 0, last_row_ = 0;

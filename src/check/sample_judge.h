@@ -13,15 +13,15 @@ class SampleJudge {
   /// Borrows the tile.
   explicit SampleJudge(const ClientTile& tile);
 
-  /// |mesh − height| at a position of 0 … 32767 each way; 0 where no triangle is.
+  /// |mesh − height| at a position, 0 … 32767 in each direction; 0 where there is no triangle.
   double error_at(double u, double v, double height) const;
 
  private:
-  static constexpr std::size_t kBuckets = 64;  ///< each way
+  static constexpr std::size_t kBuckets = 64;  ///< in each direction
   static std::size_t bucket_of(double place);
 
   const ClientTile& tile_;
-  std::vector<std::vector<std::uint32_t>> buckets_;  ///< first corners of the triangles that may overlap the bucket
+  std::vector<std::vector<std::uint32_t>> buckets_;  ///< first indices of the triangles that may overlap each bucket
 };
 
 }  // namespace scarp

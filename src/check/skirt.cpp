@@ -1,5 +1,5 @@
-// A tile's skirt hangs from its edges to hide gaps next to tiles of other levels. It is correct if its upper sides are
-// the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper one.
+// A tile's skirt hangs from its edges to hide gaps next to tiles of other levels. The skirt is correct if its upper
+// sides are the steps of whole edges, each once and clockwise, and each lower vertex lies below its upper one.
 #include <fmt/format.h>
 
 #include <algorithm>

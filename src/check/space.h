@@ -18,7 +18,7 @@ double inner(const Place& a, const Place& b);
 Place cross(const Place& a, const Place& b);
 double length(const Place& a);
 
-/// Degrees, and metres above the ellipsoid. On a local grid: cells, and metres above its plane.
+/// In degrees, and metres above the ellipsoid; on a local grid, in cells, and metres above its plane.
 struct Geographic {
   double longitude = 0, latitude = 0, height = 0;
 };
@@ -49,12 +49,12 @@ class World {
     return {out * meridian.cosine, out * meridian.sine, (parallel.normal * (1 - e2_) + height) * parallel.sine};
   }
   Place place(const Geographic& at) const;
-  /// The inverse, to 10⁻⁸ m; longitudes of −180 … 180.
+  /// The inverse of place(), to 10⁻⁸ m; longitudes of −180 … 180.
   Geographic find(const Place& at) const;
   /// The unit vector that points upwards.
   static Place up(double longitude, double latitude);
 
-  /// In units of the axes: the ellipsoid becomes the sphere of radius 1.
+  /// The position in units of the axes, which make the ellipsoid a sphere of radius 1.
   Place scaled(const Place& at) const { return {at[0] / a_, at[1] / a_, at[2] / b_}; }
   double semi_major() const { return a_; }
   /// The smallest radius of curvature anywhere; infinite on the plane.

@@ -1,4 +1,4 @@
-// Laws that apply to a single tile.
+// Checks of the rules for a single tile.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Adds one sentence per violated law to `faults`.
+/// Adds one sentence per violated rule to `faults`.
 void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
 /// On a plane: checks that the triangles cover exactly the raster's part of the tile.
 void check_land(const ClientTile& tile, const TileGrid& grid, std::vector<TileFault>& faults);

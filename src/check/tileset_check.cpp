@@ -18,8 +18,8 @@ constexpr double kRadians = 0.017453292519943295;
 constexpr double kSideSlack = 1e-9, kHeightSlack = 1e-6;
 /// Metres at the centre of a plane, where its transform is exact.
 constexpr double kCentreSlack = 0.01;
-/// Grid of checked raster positions, each way. It is a subset of the positions for which the set declares the distance
-/// from the globe.
+/// Checked raster positions in each direction: a subset of those for which the set declares the distance from the
+/// globe.
 constexpr int kLooks = 5;
 
 class TilesetCheck {
@@ -105,7 +105,7 @@ class TilesetCheck {
     }
   }
 
-  /// Each level has half the error of the one above.
+  /// Each level has half the error of the level above.
   void check_error(const ClaimedRoot& root, std::uint32_t x) {
     double error = root.geometric_error.value_or(0);
     for (std::size_t z = 0; z < claims_.bounds.size(); ++z, error /= 2) {
@@ -143,7 +143,7 @@ class TilesetCheck {
     const World globe(TileGrid{}, nodes_.place->ellipsoid);
     const double col = static_cast<double>(raster.centre_col()), row = static_cast<double>(raster.centre_row());
     const double height = (low_ + high_) / 2;
-    // Ground metres, and height.
+    // Distances on the ground in metres, and in height.
     const auto off = [&](double east, double north, double above) -> std::array<double, 2> {
       const std::array<double, 3> at = nodes_.place->find(east, north);
       const Place way = put(by, (east - col) * raster.cell_x, (north - row) * raster.cell_y, above) -
@@ -185,7 +185,7 @@ class TilesetCheck {
 
 void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults) {
-  // Otherwise a sentence was added already.
+  // Without roots a fault was added before.
   if (claims.roots.empty()) return;
   TilesetCheck(claims, grid, low, high, nodes, faults).run(levels);
 }

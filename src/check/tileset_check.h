@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// `levels`: of the set; `low`, `high`: heights of all its vertices.
+/// `levels`: number of levels of the set; `low`, `high`: range of the heights of all its vertices.
 void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults);
 

@@ -1,4 +1,4 @@
-// Channels as colours, and comparing pictures.
+// Channels as colours, and comparison of pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -48,7 +48,7 @@ void draw_scale(Picture& picture, int top, int size, double limit, const std::st
       draw::set_pixel(picture, x, top + y, is_frame ? draw::kInk : draw::ramp(kDiverging, t));
     }
   }
-  // Two more numbers between if there is room.
+  // Adds two numbers between the ends if there is room.
   const bool is_wide = right - left > 240 * size;
   for (int k = 0; k <= 4; ++k) {
     if ((k % 2 == 1 && !is_wide) || (limit <= 0 && k != 2)) continue;

@@ -1,5 +1,5 @@
-// Text on a Picture, in the glyphs of "7x13" of the X Window System's miscellaneous fixed fonts, which are in the
-// public domain. Each character is as wide as its ink, plus one column.
+// Text on a Picture, with the glyphs of "7x13" from the X Window System's miscellaneous fixed fonts, which are in the
+// public domain. Each character is one column wider than its ink.
 #pragma once
 
 #include <string_view>

@@ -1,7 +1,7 @@
 // The approximation as an image: each triangle interpolates its corners' values, one pixel per sample.
 //
-// Vertices near samples are snapped to them (the frame may have rounded them), so that edge functions are exact. A
-// sample on an edge or a corner belongs to the triangle, so no sample of the mesh stays white.
+// Vertices near samples are snapped to the samples, because the frame may have rounded the vertices; so edge functions
+// are exact. A sample on an edge or a corner belongs to the triangle, so no sample of the mesh stays white.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +38,7 @@ struct Facet {
     const double part = (x[b] - x[a]) * (row - y[a]) - (y[b] - y[a]) * (col - x[a]);
     return area > 0 ? part : -part;
   }
-  /// Columns of the row that contain all points inside.
+  /// A range of columns that contains all of the triangle's points in the row.
   std::pair<int, int> columns(int row, int cols) const {
     double lo = std::min({x[0], x[1], x[2]}), hi = std::max({x[0], x[1], x[2]});
     for (std::size_t k = 0; k < 3; ++k) {

@@ -12,8 +12,8 @@ struct GridPositions {
   std::vector<double> cols, rows;  ///< by vertex; NaN where the inversion failed
 };
 
-/// Fractional grid positions of the mesh's vertices. Frames with a transform are inverted by Newton's method, to about
-/// a hundredth of a sample. Cost: O(vertices); with a transform, some 15 evaluations of it per vertex.
+/// Fractional grid positions of the mesh's vertices. Newton's method inverts frames with a transform, to about a
+/// hundredth of a sample. Cost: O(vertices); some 15 evaluations of a transform per vertex.
 GridPositions find_grid_positions(const Frame& frame, int cols, int rows, const Mesh& mesh);
 
 /// Ground lengths of one column step and one row step at the middle of the grid, in the frame's units. NaN where the

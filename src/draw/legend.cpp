@@ -26,7 +26,7 @@ double round_length(double most) {
   return most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
 }
 
-/// The bar, followed by its length. Returns their end.
+/// Draws the bar, then its length. Returns x at their end.
 int draw_scale_bar(Picture& picture, int x, int middle, int size, double metres) {
   const double length = round_length(metres * picture.width / 6);
   const int pixels = std::max(1, static_cast<int>(std::lround(length / metres))), end = 3 * size;
@@ -39,7 +39,7 @@ int draw_scale_bar(Picture& picture, int x, int middle, int size, double metres)
   return x + text_width(text, size);
 }
 
-/// The tints between their lowest and highest height; a tick at sea level. Returns their end.
+/// Draws the tints between their lowest and highest heights, with a tick at sea level. Returns x at their end.
 int draw_tints(Picture& picture, int x, int middle, int size, const Legend& legend) {
   const Tints& tints = legend.tints;
   const std::string low = fmt::format("{:.5g}", tints.lowest),

@@ -1,4 +1,4 @@
-// The legend below a map: a scale bar, tints with their heights, lines with their names.
+// The legend below a map: a scale bar, tints with their heights, and lines with their names.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace scarp::draw {
 inline constexpr Colour kInk{30, 30, 30};
 
 /// Size in pixels of a map of cols × rows samples on paper. The longer side is at most `room` pixels. Small rasters are
-/// enlarged by an integer factor to some `wanted` pixels. Cells are `aspect` times as wide as high.
+/// enlarged by an integer factor to about `wanted` pixels. Cells are `aspect` times as wide as high.
 std::array<int, 2> map_size(int cols, int rows, double aspect, std::array<int, 2> room, int wanted);
 
 struct Name {

@@ -27,7 +27,7 @@ double area_of(const Mesh& mesh, const std::uint32_t* v) {
   return std::isfinite(area) ? area : 0;
 }
 
-/// Edges of the triangles that face up; if none does, of those that face down.
+/// Edges of the triangles that face up or, if there are none, of those that face down.
 std::vector<Edge> list_edges(const Mesh& mesh) {
   std::vector<Edge> up, down;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

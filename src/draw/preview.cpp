@@ -86,8 +86,8 @@ struct MapPlace {
   double y(double row) const { return (row + 0.5) * per_row - 0.5; }
 };
 
-/// Draws the sides of the triangles that face up. Sides of small triangles fade, and vanish at a few pixels: they would
-/// cover the picture in grey.
+/// Draws the sides of the triangles that face up. Sides of small triangles fade, and vanish at a few pixels, since they
+/// would cover the picture in grey.
 void draw_mesh(const HeightField& field, const Mesh& mesh, const MapPlace& place, int height, Picture& picture) {
   const draw::GridPositions at = draw::find_grid_positions(field.frame, field.cols, field.rows, mesh);
   draw::LineLayer lines(picture.width, height);
@@ -120,7 +120,7 @@ struct MarkStyle {
   const char* name;
 };
 
-// In drawing order. Distinguishable with every common colour blindness.
+// In drawing order. The colours are distinguishable with every common colour blindness.
 constexpr MarkStyle kMarkStyles[] = {
     {MarkKind::kLake, {0, 114, 178}, "lakes"},         {MarkKind::kRidge, {204, 90, 0}, "ridges and valleys"},
     {MarkKind::kWater, {0, 114, 178}, "rivers"},       {MarkKind::kWall, {120, 20, 60}, "walls"},

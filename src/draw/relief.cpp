@@ -1,8 +1,8 @@
 // Hillshade.
 //
-// Light comes from the picture's upper left (azimuth 315°, altitude 45°), for any orientation of the raster: lit from
-// below, hills appear as holes. Slopes are true to the frame's cell size, then exaggerated until a steep place (steeper
-// than 80 % of the samples) is clearly lit. So degrees and other arbitrary units can also be drawn.
+// Light comes from the picture's upper left (azimuth 315°, altitude 45°) for any orientation of the raster, since hills
+// lit from below appear as holes. Slopes are true to the frame's cell size, then exaggerated until a steep place
+// (steeper than 80 % of the samples) is clearly lit. So rasters in degrees and other arbitrary units can also be drawn.
 #include "draw/relief.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr std::array<Colour, 3> kSeaTints{Colour{72, 110, 168}, Colour{126, 166,
 constexpr std::array<Colour, 4> kTints{Colour{176, 201, 170}, Colour{226, 222, 178}, Colour{222, 190, 148},
                                        Colour{232, 216, 206}};
 
-/// Rise per ground unit to the right and up; central differences, one-sided next to nodata and borders.
+/// Rise per ground unit to the right and upwards; central differences, one-sided next to nodata and borders.
 std::vector<std::array<double, 2>> find_slopes(const Relief& relief, double step_x, double step_y) {
   std::vector<std::array<double, 2>> slopes(relief.z.size());
   const auto valid = [&](int x, int y) {

@@ -18,7 +18,7 @@ struct Relief {
   }
 };
 
-/// Colours of heights; blues below sea level, if known.
+/// Colours of heights; blue below sea level, if it is known.
 struct Tints {
   double lowest = 0, highest = 0;
   bool has_sea = false;
@@ -28,7 +28,7 @@ struct Tints {
 /// Scale and reference of a grid of samples.
 struct Ground {
   double step_x = 1, step_y = 1;  ///< size of a cell
-  bool is_metric = false;         ///< cells measured in the unit of the heights
+  bool is_metric = false;         ///< cells have the unit of the heights
   bool has_sea = false;           ///< heights are relative to sea level
 };
 Ground ground_of(const Frame& frame, int cols, int rows);
@@ -38,7 +38,7 @@ struct Shaded {
   Tints tints;
 };
 
-/// Hillshade, tinted by height. The relief shows a whole grid of cols × rows samples, whose cell size gives true
+/// Hillshade, tinted by height. The relief shows a whole grid of cols × rows samples; their cell size determines true
 /// slopes.
 Shaded shade(const Relief& relief, const Ground& ground, int cols, int rows);
 

@@ -16,7 +16,7 @@ namespace scarp {
 namespace {
 
 /// Share of the max error by which samples may differ from a line. A smaller share costs more vertices; a larger one
-/// leaves refinement no room.
+/// gives refinement no margin.
 constexpr double kCliffShare = 0.9;
 
 Line to_map(const std::vector<WallVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
@@ -43,7 +43,7 @@ Result<void> check_cliffs(const CliffOptions& options) {
   return {};
 }
 
-constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // its position, its name, and spare capacity of the list
+constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // position, name, and spare capacity of the list
 constexpr const char *kWhat = "walls", *kAdvice = "a larger height of cliffs";
 
 Result<CrackChains> find_cracks(const HeightField& field, double height, const SampleSet& marks,

@@ -87,7 +87,7 @@ std::uint32_t CrackChains::find(std::uint64_t key) const {
   return at != sides_.end() && at->key == key ? static_cast<std::uint32_t>(at - sides_.begin()) : kNoCrack;
 }
 
-/// Height at the corner clockwise of a crack.
+/// Height at the clockwise end of a crack.
 float CrackChains::corner(const Cell& cell, std::size_t k) const {
   return k < 2 ? sides_[cell[k]].from : sides_[cell[k]].to;
 }

@@ -1,9 +1,9 @@
-// Cracks: steps of a raster between neighbours, and the chains that they form.
+// Cracks, which are steps of a raster between neighbours, and the chains that they form.
 //
-// A crack lies between two neighbours in a row or column whose heights differ by more than a given height. In a cell of
-// four samples with two cracked sides a wall enters through one and leaves through the other. So cracks form chains:
-// all high samples lie on the left (rows count downwards), all low samples on the right. A line through the cracks of a
-// chain in order, each crossed between its samples, separates high from low samples.
+// A crack lies between two neighbours in a row or column whose heights differ by more than a given height. A wall
+// through a cell of four samples with two cracked sides enters at one side and leaves at the other. So cracks form
+// chains, with all high samples on the left (rows count downwards) and all low samples on the right. A line that
+// crosses the cracks of a chain in order separates high from low samples.
 //
 // Samples are read once, from the top down, three rows at a time, so rasters may be larger than memory.
 #pragma once
@@ -21,26 +21,26 @@ namespace scarp {
 struct Crack {
   Point high, low;                ///< samples
   float top = 0, foot = 0;        ///< their heights
-  bool is_before_saddle = false;  ///< the chain passes the cell between it and the next crack twice
+  bool is_before_saddle = false;  ///< the chain passes the cell between this crack and the next twice
   friend bool operator==(const Crack&, const Crack&) = default;
 };
 
 struct CrackChain {
   std::vector<Crack> cracks;  ///< successive cracks are two sides of a cell of four heights
-  bool is_ring = false;       ///< the last is followed by the first
+  bool is_ring = false;       ///< the last crack connects to the first
 };
 
-/// All cracks between samples that differ by more than `height`, each in one chain. A chain ends where a cell has one
-/// crack, three, two that contradict each other, or nodata. A cell with four, a saddle, is passed twice: around the two
-/// samples that differ more. Cost: O(samples + n log n) for n cracks.
+/// All cracks between samples that differ by more than `height`, each in one chain. A chain ends at a cell with one
+/// crack, three cracks, two contradictory ones, or nodata. A cell with four cracks, a saddle, is passed twice, around
+/// the two samples that differ more. Cost: O(samples + n log n) for n cracks.
 class CrackChains {
  public:
   /// `is_left_out`: true for samples whose cracks are ignored.
   CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
       : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
 
-  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata is NaN. REQUIRES: each
-  /// row once, from the top down.
+  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata is NaN. REQUIRES: calls
+  /// for each row once, from the top down.
   void add_row(std::int32_t row, const float* above, const float* here, const float* below);
   /// REQUIRES: all rows have been scanned.
   void link();
@@ -53,7 +53,7 @@ class CrackChains {
  private:
   /// A crack from a sample to the one on its right or below it.
   struct Side {
-    std::uint64_t key;  // in raster order, the side to the right before the one below
+    std::uint64_t key;  // in raster order; the right side before the lower one
     float from, to;
   };
   /// Sides of a cell, clockwise from the upper one: side k joins corners k and k + 1.

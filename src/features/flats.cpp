@@ -29,7 +29,7 @@ struct Area {
   std::int32_t seen = 0;   // the last row that contains a part of it
 };
 
-/// Finds flat areas from the top down. Complete areas that are large enough are passed on; others are discarded.
+/// Finds flat areas from the top down. Passes on complete areas that are large enough, and discards others.
 class AreaSweep {
  public:
   explicit AreaSweep(std::uint64_t min_samples) : min_samples_(min_samples) {}
@@ -68,7 +68,7 @@ class AreaSweep {
     end_row(visit);
   }
 
-  /// Bytes in use, including areas passed on and their sorting.
+  /// Bytes in use, including areas that were passed on and their sorting.
   std::uint64_t bytes() const {
     constexpr std::uint64_t kGrowth = 2;
     return kGrowth * (sizeof(SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +
@@ -111,7 +111,7 @@ class AreaSweep {
     free_.push_back(number);
   }
 
-  /// Moves the shorter list of runs.
+  /// Merges two areas; moves the shorter list of runs.
   std::uint32_t join(std::uint32_t a, std::uint32_t b) {
     if (a == b) return a;
     if (areas_[a].runs.size() < areas_[b].runs.size()) std::swap(a, b);
@@ -133,14 +133,14 @@ class AreaSweep {
     for (const Piece& piece : above_) {
       const std::uint32_t number = root_of(piece.area);
       Area& area = areas_[number];
-      // Several pieces may find an area complete; the first one ends it.
+      // Several pieces may find the same area complete; the first one ends it.
       if (area.seen == row_ || area.samples == 0) continue;
       if (area.samples >= min_samples_) visit(area);
       runs_ -= area.runs.size();
       area.samples = 0;
       joined_.push_back(number);
     }
-    // Nothing refers to these any more.
+    // No piece refers to these areas now.
     for (const std::uint32_t number : joined_) release(number);
     joined_.clear();
     std::swap(above_, pieces_);
@@ -150,7 +150,7 @@ class AreaSweep {
   std::uint64_t min_samples_;
   std::int32_t row_ = 0;
   std::vector<Area> areas_;
-  std::vector<std::uint32_t> free_, joined_;  // areas without samples; those that end with this row
+  std::vector<std::uint32_t> free_, joined_;  // areas without samples; areas that end with this row
   std::vector<Piece> pieces_, above_;         // pieces of this row and the previous one
   std::uint64_t runs_ = 0;
 };
@@ -187,7 +187,7 @@ class Flats {
   }
 
  private:
-  /// Until the mesh contains them, shores need more memory than the search, unless it discarded much.
+  /// Shores need more memory than the search until the mesh contains them, unless the search discarded much.
   Result<void> check_memory(std::uint64_t bytes, double share) const {
     constexpr std::uint64_t kBytesPerVertex = 2 * sizeof(std::array<double, 3>);
     return memory_.check_part(std::max(bytes + kBytesPerVertex * vertices_, shore_bytes_), share,
@@ -222,7 +222,7 @@ class Flats {
   const FlatOptions& options_;
   MemoryBudget memory_;
   Reporter reporter_;
-  std::vector<std::pair<Point, Lake>> found_;  // with their first samples
+  std::vector<std::pair<Point, Lake>> found_;  // lakes with their first samples
   std::uint64_t vertices_ = 0, shore_bytes_ = 0;
 };
 

@@ -69,7 +69,7 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
 }
 
 std::uint64_t HollowSamples::bytes(const HeightField& field) {
-  // The strip, also its negated copy, and the results in it.
+  // The strip, its negated copy, and the results for it.
   return 2 * sweep_bytes(field, kReach) + sweep_bytes(field, kReach) / 4 +
          sizeof(std::uint32_t) * static_cast<std::uint64_t>(field.rows);
 }
@@ -79,7 +79,7 @@ Point HollowSamples::point(std::uint32_t i) const {
   return {cols_[i], static_cast<std::int32_t>(row)};
 }
 
-/// In the row of p, from its column on.
+/// The first sample in the row of p at or after p's column.
 std::uint32_t HollowSamples::first_from(Point p) const {
   const std::uint32_t end = end_of(p.y);
   if (end == 0) return 0;

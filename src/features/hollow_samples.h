@@ -1,4 +1,4 @@
-// Samples lower than the land on both sides, and their neighbours, for rasters larger than memory.
+// Finds samples lower than the land on both sides, and their neighbours, also in rasters larger than memory.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ class HollowSamples {
     std::function<Result<void>(std::uint64_t samples, double share)> check;
     int threads = 0;
   };
-  /// Low samples, and those within two samples of them. Reads the field's source once from the top down. Fails as the
-  /// source does, and as `check` does. Memory: 9 bytes per sample found, twice that while gathering, and bytes().
+  /// Finds low samples, and those within two samples of them. Reads the field's source once from the top down. Returns
+  /// failures of the source and of `check`. Memory: 9 bytes per sample found, twice that during the search, and
+  /// bytes().
   static Result<HollowSamples> find(const HeightField& field, const Question& question);
   /// Memory of find() in addition to the samples.
   static std::uint64_t bytes(const HeightField& field);
@@ -52,7 +53,7 @@ class HollowSamples {
   std::vector<float> heights_;
   std::vector<std::int32_t> cols_;
   std::vector<Hollow> hollows_;
-  std::vector<std::uint32_t> begins_;  // begin of each row's samples, and the end of the last
+  std::vector<std::uint32_t> begins_;  // begin of each row's samples, and the end of the last row's
 };
 
 }  // namespace scarp

@@ -29,7 +29,7 @@ class Profiles {
       if (!falls(p, {-way.x, -way.y}) && !falls(p, way)) ways[count++] = way;
     }
     if (count < 2) return Hollow::kNone;
-    // Number of profiles that are at least this good, and of those with both sides.
+    // Number of profiles that are at least this good, and number of those with both sides.
     std::array<int, 3> profiles{}, whole{};
     for (std::size_t w = 0; w < count; ++w) {
       const Point way = ways[w];

@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// How clearly a sample lies lower than the land on both sides.
+/// Classes of a sample's depth below the land on both sides.
 enum class Hollow : std::uint8_t {
   kNone,
   kFaint,  ///< by half the given height
@@ -18,12 +18,12 @@ enum class Hollow : std::uint8_t {
 inline constexpr std::int32_t kHollowReach = 16;  ///< samples in one side of a profile
 
 /// The hollow at each sample: the second best of the four profiles through it (row, column, both diagonals). A profile
-/// is as good as the worse of its two sides. A side is rated by its highest rise within kHollowReach samples, before it
+/// has the rating of its worse side. The rating of a side is its highest rise within kHollowReach samples, before it
 /// falls below the sample. If the nearest sample of a side is nodata or beyond the raster, the other side counts for
-/// both, provided another profile has two sides. In a level stretch of a profile only the middle sample or two count as
-/// low.
+/// both, provided another profile has two sides. In a level stretch of a profile, only the one or two middle samples
+/// count as low.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
-/// The same for the rows [begin, end) only.
+/// The same, only for the rows [begin, end).
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
                                  std::int32_t end);
 

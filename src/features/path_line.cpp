@@ -20,7 +20,7 @@ class Links {
   Links(const LineSamples& samples, const std::vector<Point>& path, double tolerance)
       : samples_(samples), path_(path), tolerance_(tolerance) {}
 
-  /// Sum of squared distances of the samples between two; nothing if the chord violates a limit.
+  /// Sum of squared distances of the samples between two vertices; nothing if the chord violates a limit.
   std::optional<double> cost(std::size_t first, std::size_t last) const {
     const Point a = path_[first], b = path_[last];
     const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
@@ -34,7 +34,7 @@ class Links {
       if (std::abs(from + share * rise - double{samples_.at(path_[k])}) > tolerance_) return std::nullopt;
       sum += beside * beside / length2;
     }
-    // at the same positions as when lines are inserted
+    // the same positions as in the insertion of lines
     const double looks = std::ceil(2 * std::sqrt(length2));
     for (double i = 1; i < looks; ++i) {
       const double height = surface_at(samples_, {a.x + i / looks * dx, a.y + i / looks * dy});
@@ -68,7 +68,7 @@ std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath&
     for (std::size_t j = i + 1; j <= most; ++j) {
       State& to = states[j];
       if (states[i].links + 1 > to.links) continue;
-      // Neighbours are always linked.
+      // Adjacent samples are always linked.
       const std::optional<double> cost = j == i + 1 ? std::optional<double>(0) : links.cost(i, j);
       if (!cost) continue;
       const State way{states[i].links + 1, states[i].squares + *cost, i};

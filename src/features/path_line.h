@@ -8,10 +8,10 @@
 
 namespace scarp {
 
-/// The samples of a path, including its ends and joints, that form the simplified line. It has the fewest vertices such
-/// that each sample between two lies within one sample of the line's chord, and the surface along the chord and the
-/// samples differ by at most `tolerance` from the heights along it. Ties are broken by the smallest squared distance
-/// from samples. Reads only samples within two of the path.
+/// The samples of a path, including its ends and joints, that form the simplified line. The line has the fewest
+/// vertices under two conditions. Each sample between two vertices lies within one sample of their chord. The surface
+/// along the chord, and the samples, differ by at most `tolerance` from the chord's heights. In a tie the smallest
+/// squared distance from samples wins. Reads only samples within two of the path.
 std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath& path, double tolerance);
 
 }  // namespace scarp

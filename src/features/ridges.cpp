@@ -22,7 +22,7 @@
 namespace scarp {
 namespace {
 
-/// Share of the max error within which lines follow the raster, so that insertion as soft lines adds no bends.
+/// Share of the max error within which lines follow the raster, so that their insertion as soft lines adds no bends.
 constexpr double kRidgeShare = 0.5;
 
 Result<void> check_ridges(const RidgeOptions& options) {
@@ -48,7 +48,7 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
   return line;
 }
 
-/// Segments near all samples within two of paths.
+/// Segments near all samples within two samples of paths.
 std::vector<Segment> courses_of(const std::vector<ValleyPath>& paths) {
   std::vector<Segment> courses;
   for (const ValleyPath& path : paths) {

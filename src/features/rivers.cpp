@@ -76,7 +76,7 @@ class Ground {
   std::optional<SampleSet> lakes_;
 };
 
-/// A line, sampled twice per raster step.
+/// A line with two positions per raster step.
 class Course {
  public:
   Course(const Line& line, const Ground& ground) : line_(&line) {
@@ -110,8 +110,8 @@ class Course {
 
   double source() const { return source_; }  ///< kNoHeight: the line has no height anywhere
 
-  /// Lowers the water, at most to the levels of shared vertices, and lowers these, too. Returns true if a shared vertex
-  /// became lower.
+  /// Lowers the water where shared vertices are lower, and lowers higher shared vertices. Returns true if a shared
+  /// vertex became lower.
   bool flow(std::map<std::array<double, 2>, double>& levels) {
     double level = std::numeric_limits<double>::infinity();
     bool has_lowered = false;
@@ -160,8 +160,8 @@ class Course {
   }
 
  private:
-  /// The line's vertices, the last positions outside lakes and the first ones inside: no part of a lake leaves its
-  /// level.
+  /// The line's vertices, the last positions outside lakes and the first ones inside, so that the line stays at the
+  /// level of each lake.
   std::vector<std::size_t> fixed_places() const {
     std::vector<std::size_t> fixed = vertices_;
     for (std::size_t i = 1; i < places_.size(); ++i) {
@@ -185,7 +185,7 @@ class Course {
   bool is_turned_ = false;
 };
 
-/// Samples near the lines, for a field with a source; for samples in memory `held`.
+/// Samples near the lines: read from the field's source, or from memory through `held`.
 Result<LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
                                   const std::array<double, 6>& affine, std::optional<Samples>& held) {
   if (field.samples != nullptr) {
@@ -213,7 +213,7 @@ Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<cons
     Course course(line, ground);
     if (!std::isnan(course.source())) courses.push_back(std::move(course));
   }
-  // Starting at the highest source settles most of a network at once.
+  // A start at the highest source settles most of a network in one pass.
   std::vector<std::size_t> order(courses.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -95,7 +95,7 @@ class SparseNear {
   std::vector<std::uint8_t> is_reached_;
 };
 
-/// The forest that links low samples, in the order of reaching them.
+/// The forest that links low samples, in the order in which the search reaches them.
 template <class Near>
 class Forest {
  public:
@@ -152,7 +152,7 @@ class Forest {
     float height;
     Id sample;
     std::uint32_t parent;
-    /// The lowest comes first.
+    /// The lowest sample comes first.
     friend bool operator<(const Waiting& a, const Waiting& b) {
       return std::pair(a.height, a.sample) > std::pair(b.height, b.sample);
     }
@@ -177,7 +177,7 @@ class Forest {
 
   void weigh() {
     const auto low = [&](std::uint32_t n) { return n == kNoNode ? 0 : nodes_[n].low; };
-    // Children precede their parents, the last child first, so that among equals the first continues.
+    // Children precede their parents, the last child first, so that among equal branches the first one continues.
     for (auto n = static_cast<std::uint32_t>(nodes_.size()); n-- > 0;) {
       Node& node = nodes_[n];
       node.low = low(node.heir) + (is_low(n) ? 1 : 0);

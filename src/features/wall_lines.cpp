@@ -10,9 +10,9 @@
 namespace scarp {
 namespace {
 
-/// All in kLatticeSteps: half the gap between top and foot on a crack; the spacing of pairs on cracks, and in cells.
-/// Doubling the pairs on the streets of Athens costs five times the time and saves 1 % of the vertices; no pairs in
-/// cells adds 4 %.
+/// In kLatticeSteps: half the gap between top and foot on a crack; the spacing of pairs on cracks, and in cells. On the
+/// streets of Athens, twice as many pairs need five times the time and save 1 % of the vertices; without pairs in cells
+/// there are 4 % more.
 constexpr std::int32_t kHalfGap = 2, kPairStep = 16, kCellStep = 64;
 /// Cost of a pair of vertices, and of a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;
@@ -53,7 +53,7 @@ class WallSearch {
   }
 
  private:
-  /// A candidate position of a vertex: on a crack, or in the cell after it if the chain turns there and passes the cell
+  /// A candidate position of a vertex: on a crack, or in the next cell if the chain turns there and passes the cell
   /// once.
   struct Station {
     std::size_t crack;
@@ -67,7 +67,7 @@ class WallSearch {
   };
   struct State {
     std::int32_t cost = kNeverReached;
-    std::uint32_t from = kNoPair;  // the start of the link; kNoPair: lines begin here
+    std::uint32_t from = kNoPair;  // start of the link; kNoPair: lines begin here
   };
 
   void clear() {
@@ -108,7 +108,7 @@ class WallSearch {
   void add_cell(const Crack& before, const Crack& after) {
     const bool around_high = before.high == after.high, around_low = before.low == after.low;
     if (around_high == around_low || before.is_before_saddle) return;
-    // From the sample around which the chain turns to the opposite one.
+    // The vector from the sample around which the chain turns to the opposite one.
     const Point pivot = around_high ? before.high : before.low;
     const Point a = around_high ? before.low : before.high, b = around_high ? after.low : after.high;
     const std::int32_t dx = a.x + b.x - 2 * pivot.x, dy = a.y + b.y - 2 * pivot.y;
@@ -144,7 +144,7 @@ class WallSearch {
       } else {
         begin_lines(station);
       }
-      // A ring's last crack is its first: lines continue there, or have already ended.
+      // A ring's last crack equals its first: lines continue there, or have already ended.
       if (!station.is_cell) end_lines(station, first == kNoPair || s + 1 < stations_.size());
       find_ends(s);
       for (std::uint32_t p = station.begin; p < station.end; ++p) {
@@ -169,7 +169,7 @@ class WallSearch {
     }
   }
 
-  /// Finds the stations that links from station s can reach, by heights.
+  /// Finds the stations that links from station s can reach, judged by heights.
   void find_ends(std::size_t s) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     ends_.clear();
@@ -212,7 +212,7 @@ class WallSearch {
         const PointPair& end = pairs_[q];
         const WallVector above = end.top - from.top, below = end.foot - from.foot;
         if (is_limited && !(is_left(above, high_limit) && is_left(low_limit, below))) continue;
-        // The lines must not cross.
+        // The lines of a wall must not cross.
         if (!is_left(from.foot - from.top, above) || !is_left(end.foot - end.top, above)) continue;
         states_[q] = {cost, p};
       }
@@ -268,7 +268,7 @@ class WallSearch {
   std::vector<std::uint32_t> station_of_;
   std::uint32_t begin_of_cut_ = 0;
   std::vector<State> states_;
-  std::vector<State> off_;  // before each crack, and at the end: state without lines
+  std::vector<State> off_;  // state without lines before each crack, and at the end
   std::vector<char> ends_;
 };
 

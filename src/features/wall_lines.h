@@ -1,4 +1,4 @@
-// Two lines for a wall: one along its top, one along its foot, with few vertices.
+// Two lines with few vertices for a wall: one along its top, one along its foot.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct WallVertex {
   friend bool operator==(const WallVertex&, const WallVertex&) = default;
 };
 
-/// Part of a wall: two polylines with equally many vertices, at least two, and no common point. A ring ends with its
-/// first vertex.
+/// Part of a wall: two polylines without a common point, with the same number of vertices, at least two. A ring ends
+/// with its first vertex.
 struct Wall {
   std::vector<WallVertex> top, foot;
 };
 
-/// The parts of a chain where lines are worth their vertices, each with the fewest vertices.
+/// The parts of a chain where lines justify their vertices, each with the fewest vertices.
 ///
-/// Along each part the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, and
-/// none between. Vertices lie on cracks. Memory: kWallBytesPerCrack.
+/// Along each part, the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, and
+/// none between them. Vertices lie on cracks. Memory: kWallBytesPerCrack.
 std::vector<Wall> find_walls(const CrackChain& chain, double tolerance);
 
 inline constexpr std::uint64_t kWallBytesPerCrack = 1000;

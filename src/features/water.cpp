@@ -58,7 +58,7 @@ class Shores {
     return LineSamples::read(field_, courses);
   }
 
-  /// The percentile of the surface along the rings; nothing if it has no valid point.
+  /// The percentile of the surface along the rings; nothing if the surface has no valid point there.
   std::optional<double> level_of(Rings rings, const LineSamples& samples) const {
     std::vector<float> heights;
     for (const Line& ring : rings) {
@@ -89,7 +89,7 @@ class Shores {
     affine[3] += box.col * affine[4] + box.row * affine[5];
     LineRuns marks(affine, box.cols, box.rows);
     marks.add_polygons(rings);
-    // Lines are rounded to the lattice: samples thereby moved into the lake belong to it.
+    // Lines are rounded to the lattice; samples that the rounding moves into the lake belong to it.
     for (const Line& ring : rings) marks.add_course(ring, 1.0 / 128);
     for (const auto& [row, begin, end] : marks.runs()) visit(SampleRun{box.row + row, box.col + begin, box.col + end});
   }
@@ -131,17 +131,17 @@ struct LakeRun {
   SampleRun samples;
 };
 
-/// Sets the samples of lakes to their levels, row by row. Only the lakes that contain a sample affect it, in their
+/// Sets the samples of lakes to their levels, row by row. Only lakes that contain a sample affect the sample, in their
 /// order.
 class Flattening {
  public:
-  /// `runs`: by row, then by lake. Levels of `lakes` are set.
+  /// `runs`: by row, then by lake. `lakes` must have levels.
   Flattening(std::span<const LakeRun> runs, double freeboard, std::int32_t cols, std::vector<Lake>& lakes)
       : runs_(runs), lakes_(lakes), cols_(cols), water_(static_cast<std::size_t>(cols)), rim_(water_) {
     for (const Lake& lake : lakes) rims_.push_back(static_cast<float>(lake.level + freeboard));
   }
 
-  /// The first row from this one on that lakes change; nothing: none.
+  /// The first row from this one on that lakes change; nothing if there is none.
   std::optional<std::int32_t> next_row(std::int32_t row) {
     while (above_ < runs_.size() && runs_[above_].samples.row < row - 1) ++above_;
     if (above_ == runs_.size()) return std::nullopt;
@@ -231,7 +231,7 @@ class Flattening {
     }
   }
 
-  /// 1 if the sample is a height and changed.
+  /// Returns 1 if the sample is a height and changed.
   static std::uint64_t put(float& sample, float height, Lake& lake) {
     if (std::isnan(sample) || sample == height) return 0;
     lake.largest_change = std::max(lake.largest_change, std::abs(double{sample} - double{height}));
@@ -243,8 +243,8 @@ class Flattening {
   std::vector<Lake>& lakes_;
   std::int32_t cols_;
   std::vector<float> rims_;                 // rims of the lakes
-  std::vector<std::uint32_t> water_, rim_;  // by column: 1 + the last lake that contains a sample, or has the highest
-                                            // rim there
+  std::vector<std::uint32_t> water_, rim_;  // by column: 1 + the last lake that contains the sample; 1 + the lake with
+                                            // the highest rim there
   std::int32_t first_ = 0, last_ = 0;       // range of changed columns
   std::size_t above_ = 0;                   // the first run still relevant
 };

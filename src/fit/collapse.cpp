@@ -13,21 +13,21 @@ namespace scarp {
 
 namespace {
 
-/// Rises of energy beyond this are not worth trying, nor are searches that begin this many times as far away.
+/// Largest rise of energy that is tried, and its multiple beyond which a search ends after its first places.
 constexpr float kMostRise = 300, kFarReach = 10;
 
-/// Longer rings are ignored.
+/// Edges with longer rings are ignored.
 constexpr std::size_t kMostCorners = 16;
 
 constexpr std::array<double, 3> kStarts{0.5, 0.15, 0.85}, kCollapseReaches{0.3, 0.15, 0.07};
-constexpr int kSteps = 3;  // steps of each reach
+constexpr int kSteps = 3;  // most steps of each reach
 constexpr std::array<Point, 4> kCollapseWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-/// False where the edge is not for collapsing.
+/// False if the edge cannot be collapsed.
 bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
   for (const Patch::Id end : {v, u}) {
     if (patch_.is_removed(end) || patch_.is_locked(end)) return false;
@@ -44,7 +44,7 @@ bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
   for (std::size_t i = 1; i < n; ++i) polygon_.push_back(star_.ring[(hub_ + i) % n]);
   for (std::size_t i = 2; i + 1 < m; ++i) {
     const Patch::Id beyond = other_.ring[(back + i) % m];
-    // A third common neighbour: triangles between would be turned inside out.
+    // With a third common neighbour, triangles between would be inverted.
     if (std::find(polygon_.begin(), polygon_.end(), beyond) != polygon_.end()) return false;
     polygon_.push_back(beyond);
   }
@@ -61,7 +61,7 @@ bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
   return true;
 }
 
-/// The best place of the new vertex; false where it promises too little.
+/// Finds the best place of the new vertex; false if its energy is too high.
 bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
   const FitCorner &a = patch_.at(v), &b = patch_.at(u);
   float least = kNever;
@@ -96,7 +96,7 @@ bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
   return true;
 }
 
-/// Each edge once, from the end that comes first.
+/// Offers each edge once, from its end with the lower number.
 void Collapse::offer_edges_of(Patch::Id v, FunctionRef<bool(Patch::Id)> is_wanted) {
   if (patch_.is_removed(v) || patch_.is_locked(v)) return;
   patch_.find_star(v, around_);
@@ -106,7 +106,7 @@ void Collapse::offer_edges_of(Patch::Id v, FunctionRef<bool(Patch::Id)> is_wante
   }
 }
 
-/// The triangles of a fan about the hub, in the order of Patch::RingTriangle, between two corners of the ring of v.
+/// Adds the triangles of a fan about the hub between two corners of v's ring, in the order of Patch::RingTriangle.
 void Collapse::add_fan(std::size_t first, std::size_t last) {
   if (last < first + 2) return;
   const std::size_t middle = first == hub_ ? last - 1 : last == hub_ ? first + 1 : hub_;

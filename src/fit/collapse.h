@@ -1,18 +1,18 @@
 // Collapse: one new vertex replaces two neighbours.
 //
-// Removal with repair removes one vertex, and its neighbours repair the bound. Where no vertex can go that way, a
-// better placed third vertex can often replace two. For each edge u–v within the patch the polygon around both stars
-// becomes a fan about a new vertex w. Its place is searched for: the better one of three on the edge, then steps along
-// both axes, 0.3, 0.15 and 0.07 of the edge long, while the energy Σ t⁸ of the fan falls; at each place w has its best
-// height (height_step.h), or the nearest with room (height_room.h). Fans that promise too little are left early. The
-// rest are tried, the least rise of energy first, with the slack of repair and mended as it mends (repair.h); what it
-// has changed waits for the next pass.
+// Removal with repair removes one vertex, and its neighbours repair the bound. Where no vertex can be removed that way,
+// a better placed third vertex can often replace two. For each edge u–v within the patch, a fan about a new vertex w
+// fills the polygon around both stars. The search for w's place begins at the best of three points on the edge. Steps
+// of 0.3, 0.15 and 0.07 of the edge's length along both axes follow while the energy Σ t⁸ of the fan falls. At each
+// place w has its best height (height_step.h), or the nearest with room (height_room.h). Fans with too much energy are
+// dropped early. The others are tried in the order of their rise of energy, with repair (repair.h). Edges at changed
+// triangles wait for the next pass.
 //
-// One pass after each round of max keeps 0.970 of the triangles (0.895 to 1.009 in the 42 cases of
-// bench/quality/efforts.csv), for some 1.4 to 1.7 times the time, with an RMSE 1.024 times as large. For as much time,
-// more rounds without collapses keep more: collapses reach 0.977 to 0.986 of theirs (Fuji at 5, 1 and 0.2 % of the
-// relief, Crater Lake at 1 and 0.5 %). Further passes in a round find less than 1 % more for as much time again, with
-// half the places tried 0.5 % more triangles remain for a twentieth of the time.
+// With one pass after each round of max, 0.970 of the triangles remain (0.895 to 1.009 in the 42 cases of
+// bench/quality/efforts.csv), in some 1.4 to 1.7 times the time; the RMSE is 1.024 times as large. In the same time,
+// more rounds without collapses end with more triangles: collapses reach 0.977 to 0.986 of their number (Fuji at 5, 1
+// and 0.2 % of the relief, Crater Lake at 1 and 0.5 %). A further pass removes less than 1 % more in as much time.
+// Trying half the places saves a twentieth of the time and leaves 0.5 % more triangles.
 #pragma once
 
 #include <cstddef>
@@ -30,15 +30,15 @@ namespace scarp {
 
 class Collapse {
  public:
-  /// `loose`: with the slack of the repair. All stay alive.
+  /// `loose`: with the slack of the repair. All must outlive this object.
   Collapse(Patch& patch, const TriangleError& loose, const MoveRules& rules, Repair& repair)
       : patch_(patch), loose_(loose), rules_(rules), repair_(repair) {}
 
   struct Counts {
     std::uint64_t done = 0, tried = 0;
   };
-  /// One pass over the edges between vertices of which `is_wanted` holds for one at least; neither may be locked nor
-  /// lie on a side. REQUIRES: vertices are free; every triangle of the patch keeps the threshold, energies are known.
+  /// One pass over the edges with an end for which `is_wanted` is true and no end that is locked or on a side.
+  /// REQUIRES: vertices are free; every triangle of the patch is within the threshold; energies are known.
   Counts run(FunctionRef<bool(Patch::Id)> is_wanted, const std::function<bool()>& is_time_up);
 
  private:

@@ -14,11 +14,11 @@ namespace scarp {
 
 namespace {
 
-/// Triangles of a square lie in memory block by block, so that neighbours are near each other.
+/// Triangles of a square are stored block by block, so that neighbours are near each other in memory.
 constexpr std::int64_t kBlocksPerSide = 8;
 constexpr std::size_t kBlocks = 64;
 
-/// The smallest window that holds points.
+/// The bounding box of points.
 struct PointBox {
   Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
   void add(Point p) {
@@ -31,23 +31,23 @@ struct PointBox {
   }
 };
 
-/// The rank of a half-edge among those of its patch, by the indices of triangles among theirs.
+/// The rank of a half-edge in its patch, from the index of its triangle there.
 std::size_t rank_in(const std::vector<std::uint32_t>& indices, HalfEdge h) {
   return 3 * std::size_t{indices[h / 3]} + h % 3;
 }
 
 }  // namespace
 
-/// Half-edges on the border of a patch: what they were called, in the order of cutting, and what they are called now.
+/// Half-edges on the border of a patch: old names, in the order of cutting, and new names.
 struct PatchCutter::Borders {
   std::vector<HalfEdge> before, now;
 };
 
-/// A triangulation in the making.
+/// A triangulation under construction.
 struct PatchCutter::Parts {
   Triangulation::Arrays arrays;
   std::vector<Vertex> numbers;      // by old vertex
-  std::vector<std::size_t> begins;  // by patch, its first triangle; the last: those outside
+  std::vector<std::size_t> begins;  // by patch, its first triangle; the last patch: outside
   std::vector<Borders> borders;     // by patch
 };
 
@@ -74,7 +74,7 @@ PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const V
   begins_.pop_back();
 }
 
-/// Fills square_; the squares' blocks, in the order in which they are to lie in memory.
+/// Fills square_. Returns each triangle's block, numbered in the order in memory.
 std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
   const auto count = static_cast<Triangle>(tin_.triangle_count());
   std::vector<std::uint32_t> blocks(count);
@@ -239,7 +239,7 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vec
   };
   parallel_for(patches.size(), threads_, [&](std::size_t i) {
     const auto& [before, now] = parts.borders[i];
-    // Both sides of a constrained edge are borders, most of them of one patch.
+    // Both sides of a constrained edge are borders, mostly of the same patch.
     const auto names = make_unfilled<HalfEdge>(3 * (begins_[i + 1] - begins_[i]));
     for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(index_in_patch_, before[n])] = now[n];
     for (std::size_t n = 0; n < before.size(); ++n) {

@@ -1,7 +1,7 @@
-// A triangulation cut into patches, and joined again.
+// Cuts a triangulation into patches, and joins them again.
 //
-// A triangle belongs to the square of samples that its centre lies in: a rule of geometry alone, so that patches are
-// the same on any number of threads. Where edges between patches cost vertices, squares shifted by half set them free.
+// A triangle belongs to the square of samples that contains its centre. This rule uses only geometry, so patches are
+// the same on any number of threads. Vertices on borders between patches are locked; squares shifted by half free them.
 #pragma once
 
 #include <cstdint>
@@ -28,25 +28,25 @@ struct FreeSides {
 /// Assigns triangles to patches.
 class PatchCutter {
  public:
-  /// Raster, triangulation and lattice stay alive. `points`: as in FitOptions.
+  /// Raster, triangulation and lattice must outlive this object. `points`: as in FitOptions.
   PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice, const PatchGrid& grid,
               const FreeSides& free_sides, int threads, const ScatteredSamples* points = nullptr);
 
   std::size_t count() const { return begins_.size() - 1; }
 
-  /// Memory of one thread: a number for each vertex of the triangulation, kept between calls.
+  /// Memory of one thread, reused between calls: a number for each vertex of the triangulation.
   struct Scratch {
     std::vector<std::uint32_t> ids;
   };
-  /// The patch, and in `vertices` what its nodes are called in the triangulation. All are locked where the arithmetic
-  /// of fitting ends: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
+  /// Returns the patch; stores the vertex of each node in `vertices`. All nodes are locked if the patch exceeds the
+  /// range of the arithmetic: longer than kMaxFitSteps, or heights beyond kMaxScanHeight.
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
-  /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
-  /// that are removed in a patch are omitted, those that were moved have their new places. `numbers`: by old vertex its
-  /// new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
-  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed.
-  /// Nodes beyond those that a patch was cut with are new vertices, whose numbers follow.
+  /// The triangulation with the triangles of the changed patches, patch by patch, then those outside. Removed vertices
+  /// are omitted; moved ones have their new places. `numbers`: the new number of each old vertex, or kNone. `joined`:
+  /// the lattice of the new vertices; its steps are an input. Fixed vertices stay fixed. Nodes that were added to a
+  /// patch become new vertices with the last numbers. REQUIRES: patches are packed; joined.steps equals the cutter's,
+  /// or is kLatticeSteps where the cutter's is 1.
   Triangulation join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
                      std::vector<Vertex>& numbers, VertexLattice& joined) const;
 
@@ -81,7 +81,7 @@ class PatchCutter {
   FreeSides free_sides_;
   int threads_;
   std::size_t squares_per_row_;
-  std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside
+  std::vector<std::size_t> begins_;  // by patch, its first triangle in order_; the last patch: outside
   std::vector<Triangle> order_;
   std::vector<std::uint32_t> index_in_patch_;  // by triangle, its index among those of its patch
   std::vector<std::uint32_t> square_;          // by triangle

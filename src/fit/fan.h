@@ -1,4 +1,4 @@
-// A vertex that may be, amid the corners around it: its triangles' shapes, and the height that suits them best.
+// A trial vertex and the ring of corners around it: shapes of its triangles, and its best height.
 #pragma once
 
 #include <algorithm>
@@ -22,13 +22,13 @@ class Fan {
   struct Raised {
     FitCorner place;
     double least = 0;      ///< the least energy of any height
-    double energy = 0;     ///< at this height; infinite where it is too large to be scanned
-    bool in_room = false;  ///< every triangle keeps the bound (height_room.h)
+    double energy = 0;     ///< at the chosen height; infinite if the height is too large to scan
+    bool in_room = false;  ///< every triangle is within the bound (height_room.h)
   };
 
   Fan(std::size_t triangles, CornerAt corner) : triangles_(triangles), corner_(corner) {}
 
-  /// True if all triangles are positive, and not below the floor.
+  /// True if all triangles are positive, and no shape is below the floor.
   bool fits(const FitCorner& place, const ShapeRule& rule, const TriangleShape& floor) const {
     for (std::size_t i = 0; i < triangles_; ++i) {
       if (area2(place, corner_(i), corner_(i + 1)) <= 0) return false;
@@ -37,8 +37,8 @@ class Fan {
     return true;
   }
 
-  /// The height of least energy between the rules' ends; where `seeks_room(its energy)`, the nearest in the room, if
-  /// there is one. `place` has the height to begin with.
+  /// The height of least energy within the rules' limits. If `seeks_room(energy)` is true, the nearest height in the
+  /// room, if there is a room. place.z is the initial height.
   template <typename SeeksRoom>
   Raised raise(const TriangleError& error, const MoveRules& rules, FitCorner place, SeeksRoom seeks_room) const {
     TriangleError::Moments moments{};

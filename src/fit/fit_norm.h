@@ -13,19 +13,19 @@
 
 namespace scarp {
 
-/// The most fields that count together.
+/// The most fields that can be combined.
 inline constexpr std::size_t kMostFitFields = 65;
 
-/// The definition of a sample's error, where it is not that of its height.
+/// The definition of a sample's error over several fields.
 struct FitNorm {
   struct Field {
-    const float* samples = nullptr;  ///< row-major like the raster; finite wherever that has a height
+    const float* samples = nullptr;  ///< row-major like the raster; finite wherever it has a height
     double scale = 1;                ///< weight of its errors; above 0
   };
-  std::vector<Field> fields;  ///< at least one, at most kMostFitFields; the heights are among them where they count
+  std::vector<Field> fields;  ///< 1 … kMostFitFields, including the heights if they count
   Norm norm = Norm::kSum;
-  /// A sample of the closed triangle that breaks its bound; nothing if all keep it. Called where rounding is in doubt,
-  /// on any thread, about triangles whose corners are samples, positive. Its result is final.
+  /// Returns a sample of the closed triangle that breaks its bound; nothing if all are within it. Called where rounding
+  /// may decide, on any thread, for positive triangles whose corners are samples. Its result is final.
   std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
 };
 

@@ -7,7 +7,7 @@ namespace scarp {
 
 namespace {
 
-/// Share of the energy before that must be gained, so that roundings never flip an edge back and forth.
+/// Least gain as a share of the energy before, so that roundings never flip an edge back and forth.
 constexpr float kFlipGain = 1e-5f;
 
 }  // namespace

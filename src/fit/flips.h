@@ -1,12 +1,12 @@
-// Flips by energy: the diagonal of two triangles is flipped if that brings the surface nearer to the samples.
+// Flips by energy: flips the diagonal of two triangles if that brings the surface nearer to the samples.
 //
-// Greedy insertion keeps its edges Delaunay, that is, blind to heights; removal chooses the edges of each ring, but not
-// those between rings. A flip that lowers the energy Σ (error / threshold)⁸ turns edges along ridges, and carries an
-// error that a ring cannot hold out of it. Within repair flips save up to 3 % of the triangles on samples, 1 % with
-// free vertices (Fuji and Crater Lake at 2 to 0.5 % of the relief).
+// Greedy insertion uses Delaunay edges, which ignore heights. Removal chooses the edges of each ring, but not those
+// between rings. A flip that lowers the energy Σ (error / threshold)⁸ turns edges along ridges, and moves a large error
+// out of a ring. Within repair, flips save up to 3 % of the triangles on samples, 1 % with free vertices (Fuji and
+// Crater Lake at 2 to 0.5 % of the relief).
 //
-// Stars of a ring overlap, so repair asks for the same flip again and again, half of the times with nothing changed in
-// between. A flip refused lately is remembered by all that it depends on, and refused at once.
+// Stars of a ring overlap, so repair tries the same flip repeatedly, half of the times with unchanged triangles. A
+// recently refused flip is stored with its inputs, and refused again without a scan.
 #pragma once
 
 #include <array>
@@ -20,20 +20,20 @@ namespace scarp {
 
 class Flips {
  public:
-  /// For one rule of errors. The patch stays alive.
+  /// For one rule of errors. The patch must outlive this object.
   Flips(Patch& patch, const ShapeRule& shape) : patch_(patch), shape_(shape) {}
 
-  /// Flips the edge if it is no border, both new triangles are positive, of an allowed shape, and accepted by the rule
-  /// of `error`, and the sum of the energies falls. REQUIRES: energies of both triangles are known. Cost: at most two
-  /// scans, none where the same was refused lately.
+  /// Flips the edge if it is no border, both new triangles are positive, have an allowed shape and satisfy the rule of
+  /// `error`, and the sum of the energies falls. REQUIRES: energies of both triangles are known. Cost: at most two
+  /// scans; none if the same flip was refused recently.
   bool improve(const TriangleError& error, Patch::Id face, unsigned edge);
 
-  /// Flips the edge if the worse of the two triangles has a shape below the floor, and a better one afterwards,
-  /// whatever the energies become; whether it did. REQUIRES as improve(). Cost: two scans at most, mostly none.
+  /// Flips the edge if a triangle's shape is below the floor and the worse of the two shapes improves, whatever the
+  /// energies become. True if it flipped. REQUIRES: as improve(). Cost: at most two scans, usually none.
   bool heal(const TriangleError& error, Patch::Id face, unsigned edge);
 
  private:
-  /// A flip, and the energy that it must stay below. Equal whichever of its two triangles it starts from.
+  /// A flip and its energy limit; equal from either of its two triangles.
   struct Trial {
     std::array<FitCorner, 4> corners;
     float limit = 0;
@@ -49,7 +49,7 @@ class Flips {
 
   Patch& patch_;
   ShapeRule shape_;
-  std::array<Trial, kRefusals> refused_;  // by hash; the last one of each
+  std::array<Trial, kRefusals> refused_;  // by hash, the last trial of each
 };
 
 }  // namespace scarp

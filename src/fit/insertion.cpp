@@ -47,7 +47,7 @@ void Insertion::offer(Patch::Id face) {
   std::push_heap(heap_.begin(), heap_.end(), is_later);
 }
 
-/// Each edge is tried from the face that comes first.
+/// Each edge is tried from its face with the lower number.
 Insertion::Offer Insertion::best_at(Patch::Id face) {
   Offer best;
   const Patch::Face& near = patch_.face(face);

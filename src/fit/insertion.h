@@ -1,10 +1,10 @@
 // Insertion by squared error: new vertices where the surface gains most.
 //
 // Candidates are points on each edge within the patch, at 0.3, 0.5 and 0.7 of it, and the centre of each triangle. The
-// fan of triangles about a candidate has the energy E(d) = Σ (t + λ d)² when its height rises by d, whose minimum is
-// exact (height_step.h); what it gains is the energy of the triangles that it replaces, less that. The largest gain
-// goes first; then its neighbours make their steps (repair.h). The gain is a poor estimate of the vertex' final worth,
-// most of which comes from those steps, but it ranks the places (bench/quality/squares.csv).
+// fan of triangles about a candidate has the energy E(d) = Σ (t + λ d)² when its height rises by d; the minimum is
+// exact (height_step.h). The gain is the energy of the replaced triangles less that minimum. The candidate of the
+// largest gain is inserted first; then its neighbours make their steps (repair.h). The gain is a poor estimate of a
+// vertex' final worth, which comes mostly from those steps, but it ranks the places (bench/quality/squares.csv).
 #pragma once
 
 #include <cstddef>
@@ -22,18 +22,18 @@ namespace scarp {
 
 class Insertion {
  public:
-  /// `error`: sums squares. `repair`: mends by an error with the same threshold. REQUIRES: all outlive this object.
+  /// `error`: sums squares. `repair`: uses an error with the same threshold. REQUIRES: all outlive this object.
   Insertion(Patch& patch, const TriangleError& error, const MoveRules& rules, Repair& repair)
       : patch_(patch), error_(error), rules_(rules), repair_(repair) {}
 
-  /// Inserts until there are `most` triangles, or none gains. REQUIRES: energies are known, by `error`; no triangle is
-  /// beyond the threshold.
+  /// Inserts until there are `most` triangles, or no candidate gains. REQUIRES: energies by `error` are known; no
+  /// triangle is beyond the threshold.
   void run(std::size_t most);
 
  private:
   struct Offer {
     float gain = 0;
-    Patch::Id face = 0, beyond = 0;  // the same where the place is within the face
+    Patch::Id face = 0, beyond = 0;  // equal if the place is within the face
     std::optional<unsigned> edge = std::nullopt;
     FitCorner place = {};
     std::uint32_t stamp = 0, stamp_beyond = 0;
@@ -51,9 +51,9 @@ class Insertion {
   MoveRules rules_;
   Repair& repair_;
   std::vector<Offer> heap_;
-  std::vector<std::uint32_t> stamps_;  // by face: how often it has changed
-  std::vector<FitCorner> rim_;         // rim of what a candidate would replace
-  float energy_ = 0;                   // energy of the same
+  std::vector<std::uint32_t> stamps_;  // by face: number of its changes
+  std::vector<FitCorner> rim_;         // rim of the triangles that a candidate would replace
+  float energy_ = 0;                   // energy of these triangles
   TriangleShape floor_;                // floor of the new shapes
   Patch::Star star_;
 };

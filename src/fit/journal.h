@@ -1,9 +1,9 @@
-// First-touch copies: what an array held before a transaction, while the transaction may still be undone.
+// First-touch copies: the elements of an array before a transaction, while the transaction can be undone.
 //
-// Repair changes a few dozen triangles and often gives up, so a copy of the whole would cost more than the work. Each
-// element is copied once, when it is about to change for the first time; to undo is to put the copies back. Elements
-// are neither added nor deleted within a transaction: what is removed is marked, and its place is not used again before
-// the patch is packed. Outside transactions the cost is one comparison a change.
+// Repair changes a few dozen triangles and often gives up, so a copy of the whole array would cost more than the work.
+// Each element is copied once, before its first change; an undo restores the copies. Elements are neither added nor
+// deleted within a transaction: removed ones are marked, and their places are not reused before the patch is packed.
+// Outside transactions the cost is one comparison per change.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Journal {
     is_open_ = true;
     ++now_;
   }
-  /// Before every change of items[index].
+  /// Call it before every change of items[index].
   void touch(const std::vector<T>& items, std::uint32_t index) {
     if (!is_open_ || stamps_[index] == now_) return;
     stamps_[index] = now_;
@@ -41,7 +41,7 @@ class Journal {
   }
 
  private:
-  std::vector<std::uint32_t> stamps_;  // by element, the transaction that has touched it last
+  std::vector<std::uint32_t> stamps_;  // by element, the transaction that last touched it
   std::vector<Copy> copies_;
   std::uint32_t now_ = 0;
   bool is_open_ = false;

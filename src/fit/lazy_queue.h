@@ -1,8 +1,8 @@
-// The queue of vertices to try: the cheapest first, prices updated only when their turn comes.
+// The queue of vertices to try, the cheapest first. Prices are updated only at the front.
 //
-// A change makes the prices around it stale. A queued item keeps the position of its old price, and is priced anew at
-// the front. An item that could not go waits outside the queue until the queue is empty, when most changes around it
-// have happened. Equal prices go in the order of the items, so the order is a function of the prices alone.
+// A change makes the prices around it stale. A queued item stays at the position of its old price, and gets a new price
+// at the front. A refused item waits outside the queue until the queue is empty, when most changes around it have
+// happened. Equal prices are ordered by item, so the order depends on the prices only.
 #pragma once
 
 #include <algorithm>
@@ -33,18 +33,18 @@ class LazyQueue {
     states_[item].is_held = false;
     return item;
   }
-  /// True if the item at this price would go before all that are queued.
+  /// True if the item at this price would precede all queued items.
   bool is_first(Item item, float price) const { return heap_.empty() || !is_later({price, item}, heap_.front()); }
 
   void refresh(Item item) { states_[item].is_stale = false; }
-  /// Something around the item has changed.
+  /// Call it when something around the item has changed.
   void touch(Item item) {
     states_[item].is_stale = true;
     if (states_[item].is_held) return;
     states_[item].is_held = true;
     waiting_.push_back(item);
   }
-  /// Visits those that wait, which then wait no more.
+  /// Visits the waiting items and clears their list.
   template <class Visit>
   void each_waiting(const Visit& visit) {
     std::swap(waiting_, asked_);
@@ -61,7 +61,7 @@ class LazyQueue {
     Item item;
   };
   struct State {
-    bool is_held = false;  // queued, or waiting
+    bool is_held = false;  // queued or waiting
     bool is_stale = false;
   };
 

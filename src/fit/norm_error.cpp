@@ -11,27 +11,27 @@ namespace scarp {
 
 namespace {
 
-/// A triangle of the smallest kind holds no sample but its corners.
+/// True if the triangle contains no samples except its corners.
 bool holds_corners_alone(const NormError::Corners& corners) {
   return area2(corners[0], corners[1], corners[2]) == kLatticeSteps * kLatticeSteps;
 }
 
-/// The verdict on a triangle that keeps the bound.
+/// The verdict on a triangle within the bound.
 NormError::Verdict without_energy(float energy_limit) {
   NormError::Verdict verdict;
   if (!(energy_limit > 0)) verdict.kind = NormError::Verdict::Kind::kCostly;
   return verdict;
 }
 
-/// Moves `worst` to the side of 1 where it belongs.
+/// Moves `worst` to the exact side of 1.
 float brought_to_side(float worst, bool keeps) {
   return keeps ? std::min(worst, 1.0f) : std::max(worst, std::nextafter(1.0f, 2.0f));
 }
 
-/// Sums over a triangle's samples against bounds, lane by lane, as far as it was scanned.
+/// Comparisons and sums over the samples scanned so far, lane by lane.
 template <Norm kNorm>
 struct NormTally {
-  float over_limit_at, over_at, doubt_at;  // bounds are widened or narrowed by these before the guard is added
+  float over_limit_at, over_at, doubt_at;  // factors that widen or narrow bounds before the guard is added
   float guard, least;
   bool is_eighth_power;
   Masks over_limit{}, over{}, doubt{};
@@ -53,7 +53,7 @@ struct NormTally {
     low_sum += powers(low);
     high_sum += powers(high);
   }
-  /// NaN is in doubt.
+  /// NaN counts as doubtful.
   void compare(Floats error, Floats bound, Masks meant) {
     over_limit |= error > measure_of<kNorm>(bound * all(over_limit_at) + all(guard));
     over |= error > measure_of<kNorm>(bound * all(over_at) + all(guard));

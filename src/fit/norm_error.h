@@ -1,14 +1,14 @@
 // Errors of the samples of one trial triangle, with heights and channels combined.
 //
-// Each field has a plane of its own, through its values at the corners, which are samples. The error of a sample is the
-// norm of the fields' errors, each times its scale. Like for heights alone (triangle_error.h) the scan is of float32,
-// eight samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error
-// metric of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
+// Each field has its own plane through its values at the corners, which are samples. The error of a sample is the norm
+// of the fields' errors, each times its scale. As for heights only (triangle_error.h), the scan uses float32, eight
+// samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error metric
+// of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
 //
-// Errors are reckoned in units of the threshold, or with bounds of samples in a power of two near them. u = 2⁻²⁴. To
-// the planes' guards, which are those of a threshold of 0 (scan_plane.h), times the scales, come roundings that grow
-// with the norm: 5u of each error, u of a scale, u of its product, as many as there are fields of the sum, 6u of
-// squares, roots and the bound: less than (m + 12)u for m fields, of which kWidening is twice as much.
+// The unit of errors is the threshold, or with bounds of samples a power of two near them. The guard is the sum of the
+// planes' guards for a threshold of 0 (scan_plane.h), times their scales, and of roundings that grow with the norm.
+// With u = 2⁻²⁴ these are 5u for each error, u for a scale, u for its product, mu for the sum of m fields, and 6u for
+// squares, roots and the bound. The total is less than (m + 12)u; kWidening is twice as much.
 #pragma once
 
 #include <array>
@@ -31,25 +31,25 @@ class NormError {
   using Verdict = TriangleError::Verdict;
   using Pull = TriangleError::Pull;
 
-  /// The samples that triangles lie over, in the raster or copied out of it.
+  /// The samples under the triangles, in the raster or copied from it.
   struct Samples {
     Raster heights;                    ///< decides which samples are valid
-    std::vector<const float*> fields;  ///< in the order of the norm's, each parallel to the heights
-    Point first;                       ///< from where corners are counted
+    std::vector<const float*> fields;  ///< in the order of the norm, each parallel to the heights
+    Point first;                       ///< origin from which corners are counted
     Point origin;                      ///< the same sample in the whole raster
   };
-  /// One threshold for all. Everything stays alive. REQUIRES: threshold >= 0, finite.
+  /// One threshold for all samples. The arguments' data must outlive this object. REQUIRES: threshold >= 0, finite.
   NormError(const FitNorm& norm, Samples samples, double threshold);
   /// Bounds parallel to the heights.
   NormError(const FitNorm& norm, Samples samples, const SampleBounds& bounds);
 
-  /// Like TriangleError::assess(): errors, slack and energies are those of the norm, counted in bounds. Without
-  /// energies, and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
+  /// Like TriangleError::assess(), with errors, slack and energies of the norm, counted in bounds. Without energies,
+  /// and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
   Verdict assess(const Corners& corners, float energy_limit, const ErrorRule& rule) const;
 
-  /// The pull of the samples on the first corner, a Pull for each field. The energy's derivatives for the sum of
-  /// squares and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were
-  /// the first. REQUIRES, cost: as assess().
+  /// The pull of the samples on the first corner, a Pull for each field: the energy's derivatives for the norms of
+  /// squares and of the largest error, whose eighth powers are summed. Norm::kSum uses the formula of the squares.
+  /// REQUIRES, cost: as assess().
   void pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const;
 
   const Raster& heights() const { return samples_.heights; }
@@ -58,7 +58,7 @@ class NormError {
   std::size_t field_count() const { return norm_.fields.size(); }
   bool has_energy() const { return per_unit_ > 0; }
   double unit() const { return unit_; }
-  /// In the unit of the heights' errors, of a sample counted from the first of the window.
+  /// Value of a sample counted from the first of the window, in the unit of the heights' errors.
   double value_at(std::size_t field, Point sample) const {
     return norm_.fields[field].scale * double{raw_value_at(field, sample)};
   }
@@ -83,7 +83,7 @@ class NormError {
   Samples samples_;
   Raster bounds_;
   double unit_;
-  double per_unit_;  // 0: errors have no energy, and are all decided slowly
+  double per_unit_;  // 0: errors have no energy, and find_breach decides all
 };
 
 }  // namespace scarp

@@ -1,5 +1,4 @@
-// The rows of one triangle over several fields, eight samples at a time. For norm_error.cpp and norm_pull.cpp
-// alone.
+// The rows of one triangle over several fields, eight samples at a time. Only for norm_error.cpp and norm_pull.cpp.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 
 namespace scarp {
 
-/// The value held of a norm while it is summed up, and compared: of the sum of squares its square.
+/// The form in which norms are summed and compared: the square of a root of squares, else the norm.
 template <Norm kNorm>
 Floats measure_of(Floats norm) {
   return kNorm == Norm::kSquares ? norm * norm : norm;
@@ -49,12 +48,12 @@ struct NormScan {
                   const Visit& visit) const;
 };
 
-/// The planes of one triangle. Not cleared: most triangles are small, and fields few.
+/// The planes of one triangle. They are not cleared, since most triangles are small and fields few.
 struct NormPlanes {
   TriangleTask task;
   std::array<FieldPlane, kMostFitFields> fields;
   float guard;
-  float widening;  // norm_error.h
+  float widening;  // see norm_error.h
   bool are_finite = true;
 
   NormPlanes(const NormScan& scan, const NormError::Corners& corners)
@@ -62,7 +61,7 @@ struct NormPlanes {
         widening(0x1p-23f * static_cast<float>(scan.norm.fields.size() + 12)) {
     const auto& [a, b, c] = corners;
     constexpr double kStep = 1.0 / kLatticeSteps;
-    // Scales that are no normal numbers per unit round by more than their share.
+    // Subnormal scales per unit round by more than their share.
     double sum = 0x1p-40;
     for (std::size_t k = 0; k < scan.norm.fields.size(); ++k) {
       const float za = scan.value_at(k, a), zb = scan.value_at(k, b), zc = scan.value_at(k, c);
@@ -81,7 +80,7 @@ struct NormPlanes {
   }
 };
 
-/// The norms of eight samples' errors, measured; 0 where none is meant.
+/// The norms of eight samples' errors, as measure_of(); 0 for masked samples.
 template <Norm kNorm>
 struct NormEight {
   Floats low{}, high{};
@@ -102,7 +101,7 @@ inline Floats magnitude(Floats values) {
   return kept(values, Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
 }
 
-/// Eight samples of a row, ready for all fields.
+/// Eight samples of a row: data shared by all fields.
 struct EightPlaces {
   Floats left, right;  // offsets from the base
   Masks low_meant, high_meant;
@@ -127,7 +126,7 @@ struct EightPlaces {
   }
 };
 
-/// A field's plane less its samples, scaled; anything where no sample is meant.
+/// A field's plane less its samples, scaled; unspecified for masked samples.
 struct EightErrors {
   Floats low, high;
 
@@ -141,10 +140,10 @@ struct EightErrors {
   }
 };
 
-/// The least useful bound: errors in smaller ones are noise.
+/// The least useful bound: errors counted in smaller bounds are noise.
 inline float least_bound(const NormPlanes& planes) { return std::max(kLeastBound, planes.guard); }
 
-/// Calls visit(x, norms, places) for each eight samples of a row.
+/// Calls visit(x, norms, places) for each group of eight samples in a row.
 template <Norm kNorm, class Visit>
 void NormScan::each_eight(const NormPlanes& planes, std::int32_t y, std::int32_t first, std::int32_t last,
                           const Visit& visit) const {

@@ -1,4 +1,4 @@
-// The Gauss–Newton system of a vertex' step (vertex_step.h).
+// The Gauss–Newton system of a vertex step (vertex_step.h).
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class NormalEquations {
       for (std::size_t j = 0; j < 3; ++j) left_[i][j] += pull.stiffness * u[i] * u[j];
     }
   }
-  /// Keeps it solvable where the samples determine nothing about a direction.
+  /// Keeps the system solvable where the samples do not determine a direction.
   void damp() {
     constexpr double kPlaces = 1e-3, kHeights = 1e-4;
     const double damping = kPlaces * (left_[1][1] + left_[2][2]);
@@ -33,7 +33,7 @@ class NormalEquations {
     left_[k][k] = 1;
     right_[k] = 0;
   }
-  /// By Cramer's rule; zeros where there is no solution.
+  /// By Cramer's rule; zeros if there is no solution.
   Row solve() const {
     const double det = determinant(left_);
     if (!(std::abs(det) > 0)) return {};

@@ -105,7 +105,7 @@ Patch::Id Patch::insert(const FitCorner& at, Id f, unsigned edge) {
   return fan(at, rim, {f, beyond}, 2);
 }
 
-/// The new vertex' triangles over the edges of a rim, in the place of the faces that are reused and in new ones.
+/// Adds a vertex with a triangle for each edge of a rim; reuses the given faces first.
 Patch::Id Patch::fan(const FitCorner& at, std::span<const Rim> rim, std::array<Id, 4> faces, std::size_t reused) {
   const auto v = static_cast<Id>(nodes_.size());
   nodes_.push_back({at, faces[0]});

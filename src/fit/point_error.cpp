@@ -12,20 +12,20 @@ namespace scarp {
 
 namespace {
 
-/// Share of the threshold that a sample's place may cost in a new triangle.
+/// Largest error from a sample's rounded place in a new triangle, as a share of the threshold.
 constexpr double kRoundingShare = 1.0 / 16;
 
 }  // namespace
 
-/// A triangle as its samples see it: doubled areas, the first corner as the origin.
+/// A triangle ready to be scanned: doubled areas, relative to the first corner.
 struct PointError::Task {
   const Corners& corners;
   double x, y, z;              // first corner
-  double bx, by, cx, cy;       // the others, as seen from it
-  double area;                 // twice the triangle's
+  double bx, by, cx, cy;       // the others, relative to it
+  double area;                 // twice the triangle's area
   double rise_b, rise_c;       // heights above the first corner, per area
-  double guard;                // by how much a computed error may be off
-  std::array<double, 3> step;  // x a step south along the edge from corner k; 0 for a level edge
+  double guard;                // bound of the rounding of errors
+  std::array<double, 3> step;  // change of x per step south along the edge from corner k; 0 for a level edge
 
   explicit Task(const Corners& of)
       : corners(of),
@@ -62,7 +62,7 @@ struct PointError::Task {
   double slope_y() const { return rise_c * bx - rise_b * cx; }
   double slope() const { return std::hypot(slope_x(), slope_y()); }
 
-  /// The part of the triangle between two rows, from west to east.
+  /// The western and eastern ends of the triangle between two rows.
   void span(double top, double bottom, double& west, double& east) const {
     west = std::numeric_limits<double>::infinity();
     east = -west;
@@ -88,7 +88,7 @@ void PointError::read(const PointSamples& samples, const Patch::Window& window, 
   steepest_ = rounding > 0 ? kRoundingShare * threshold / rounding : std::numeric_limits<double>::infinity();
 }
 
-/// Calls visit(run) for the runs of buckets under a triangle, from north to south, until it answers false; true if it
+/// Calls visit(run) for the runs of buckets under a triangle, from north to south, until it returns false. True if it
 /// never did.
 template <class Visit>
 bool PointError::each_run(const Task& task, const Visit& visit) const {
@@ -175,7 +175,7 @@ PointError::Verdict PointError::assess(const Corners& corners, float energy_limi
   return verdict;
 }
 
-/// Calls sums.add(t, λ) for each four samples: errors in thresholds, and the weight of the first corner.
+/// Calls sums.add(t, λ) for each four samples: errors in thresholds, and weights of the first corner.
 template <class Sums>
 Sums PointError::ask(const Corners& corners, Sums sums) const {
   const Task task(corners);

@@ -1,8 +1,8 @@
-// Errors of trial triangles where samples are scattered: what triangle_error.h does on a raster's rows.
+// Errors of trial triangles at scattered samples; triangle_error.h handles those of rasters.
 //
-// A sample's weights in a triangle are areas, and these are exact: coordinates are whole steps below 2²⁴, so products
-// of their differences fit a double. A sample on an edge counts in both triangles. Errors are computed in double and
-// decided exactly where rounding could matter.
+// A sample's weights in a triangle are exact areas: coordinates are integer steps below 2²⁴, so products of their
+// differences fit a double. A sample on an edge counts in both triangles. Errors are computed in double and decided
+// exactly where rounding could matter.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class PointError final : public ScatteredErrors {
   /// REQUIRES: threshold >= 0, finite.
   void read(const PointSamples& samples, const Patch::Window& window, double threshold);
 
-  /// Triangles so steep that the samples' rounding counts break the bound, too, but have an energy.
+  /// Triangles so steep that the samples' rounding matters also break the bound, but have an energy.
   Verdict assess(const Corners& corners, float energy_limit, double limit, ErrorRule::Power power) const override;
   TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const override;
   void add_moments(const Corners& corners, ErrorRule::Power power, TriangleError::Moments& moments) const override;
@@ -45,8 +45,8 @@ class PointError final : public ScatteredErrors {
 
   PointWindow window_;
   double threshold_ = 0;
-  double per_threshold_ = 0;  // 0 where energies end
-  double steepest_ = 0;       // largest slope of new triangles, heights a step
+  double per_threshold_ = 0;  // 0 where errors have no energy
+  double steepest_ = 0;       // largest slope of new triangles, height per step
 };
 
 }  // namespace scarp

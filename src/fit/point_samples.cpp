@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kPerBucket = 2;  // samples
 
-/// A box of lattice points, ends included.
+/// A box of lattice points, with both ends.
 struct StepBox {
   std::int64_t west, north, east, south;
   bool holds(Point p) const { return p.x >= west && p.x <= east && p.y >= north && p.y <= south; }
 };
 
-/// Calls visit(i) for the samples in a box, in their order: the runs of the squares of Morton's curve that meet it.
+/// Calls visit(i) for the samples in a box, in their order. Visits only squares of Morton's curve that meet the box.
 template <class Visit>
 class BoxQuery {
  public:
   BoxQuery(std::span<const Point> at, const StepBox& box, const Visit& visit) : at_(at), box_(box), visit_(visit) {}
 
-  /// The samples [begin, end) are those of a square of 2^level steps.
+  /// [begin, end): the samples of a square of 2^level steps.
   void run(std::int64_t x, std::int64_t y, int level, std::size_t begin, std::size_t end) const {
     constexpr std::size_t kFew = 16;
     const std::int64_t side = std::int64_t{1} << level;
@@ -99,7 +99,7 @@ void PointWindow::read(const PointSamples& samples, const Patch::Window& window)
   sort_into_buckets(width, height);
 }
 
-/// Within a bucket the order stays.
+/// The sort is stable within each bucket.
 void PointWindow::sort_into_buckets(std::int64_t width, std::int64_t height) {
   const std::size_t count = unsorted_z_.size();
   const double area = static_cast<double>(width + 1) * static_cast<double>(height + 1);

@@ -1,8 +1,7 @@
-// Points as scattered samples: where fitting reads them.
+// Points as scattered samples for fitting.
 //
-// They are held in Morton order, so the samples in a window are few runs of it. A patch copies these into rows of
-// buckets, each a run of samples from west to east; a triangle reads, from each row that it meets, the run of buckets
-// under it.
+// The points are stored in Morton order, so a window consists of few runs. A patch copies these runs into rows of
+// buckets, from west to east. A triangle reads the buckets under it, one run per row.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +19,9 @@ namespace scarp {
 
 class PointSamples final : public ScatteredSamples {
  public:
-  /// Spans of equal size, in Morton order of `at`, in lattice steps; they stay alive. `z`: finite, at most
-  /// kMaxScanHeight in magnitude, read as float32. `rounding`: how far samples may lie from their lattice points, in
-  /// steps.
+  /// Spans of equal size, in Morton order of `at`, in lattice steps; they must outlive this object. `z`: finite, at
+  /// most kMaxScanHeight in magnitude, read as float32. `rounding`: largest distance of samples from their lattice
+  /// points, in steps.
   PointSamples(std::span<const Point> at, std::span<const double> z, Point last, double rounding);
 
   const ScatteredErrors& over(const Patch::Window& window, double threshold,
@@ -38,7 +37,7 @@ class PointSamples final : public ScatteredSamples {
   double rounding_;
 };
 
-/// The samples under a patch. Keeps its memory between patches.
+/// The samples under a patch. Reuses its memory for the next patch.
 class PointWindow {
  public:
   /// Reads the samples of a window of cells of kLatticeSteps, its last column and row included.
@@ -53,7 +52,7 @@ class PointWindow {
   const float* y() const { return y_.data(); }
   const float* z() const { return z_.data(); }
 
-  /// The sample next to a place; ties: the first. size() if there are no samples.
+  /// The sample nearest to a place; ties: the first. size() if there are no samples.
   std::size_t nearest(const FitCorner& place) const;
 
   /// Samples [begin, end) of a row of buckets.
@@ -79,11 +78,11 @@ class PointWindow {
   }
   void sort_into_buckets(std::int64_t width, std::int64_t height);
 
-  std::vector<float> x_, y_, z_;  // steps from the window's first, which float32 holds; a last one more
+  std::vector<float> x_, y_, z_;  // steps from the window's first, exact in float32; one sentinel at the end
   std::vector<float> unsorted_x_, unsorted_y_, unsorted_z_;
   std::vector<std::uint32_t> begins_;  // by bucket
   std::int32_t cols_ = 1, rows_ = 1;   // size in buckets
-  int shift_ = 0;                      // logarithm of the side of a bucket, in steps
+  int shift_ = 0;                      // binary logarithm of a bucket's side in steps
 };
 
 }  // namespace scarp

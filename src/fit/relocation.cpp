@@ -15,7 +15,7 @@ void relocate_vertices(Patch& patch, const TriangleError& error, const MoveRules
       if (patch.face(f).corners[0] != kNone) visit(f);
     }
   };
-  // If all are locked, corners may lie beyond what can be scanned.
+  // If all vertices are locked, corners may be beyond the range of scans.
   each_face([&](Patch::Id f) {
     const auto& corners = patch.face(f).corners;
     if (!std::all_of(corners.begin(), corners.end(), [&](Patch::Id v) { return patch.is_locked(v); }))

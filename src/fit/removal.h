@@ -1,18 +1,18 @@
 // Exact removal: removes vertices from a mesh while every sample stays within the bound.
 //
-// A vertex may go if the ring around it can be triangulated so that every sample of every triangle keeps the threshold
+// A vertex can be removed if its ring can be triangulated with every sample of every triangle within the threshold
 // (ring_search.h). No other vertex moves: the remaining ones are samples with their own heights, as after insertion.
 // Vertices are removed greedily, by price:
 //
 //   price of v = energy of the best triangles of its ring - energy of the triangles around v,
 //   energy of a triangle = Σ (error / threshold)² over its samples:
 //
-// so the errors that the bound allows are spent where they save most. The cheapest goes first. Prices around it become
-// stale, but are updated only when their turn comes (a lazy queue). Vertices that could not go wait until the end, when
-// most changes around them have happened. So the pass ends with a mesh in which no vertex can go alone. It removes 45
-// to 50 % of what greedy insertion left.
+// so the error that the bound allows is used where it saves most. The cheapest vertex is removed first. Prices around
+// it become stale, but are updated only at the front of the queue (lazy_queue.h). Refused vertices wait until the queue
+// is empty, when most changes around them have happened. So no single vertex of the final mesh can be removed. The pass
+// removes 45 to 50 % of the vertices of greedy insertion.
 //
-// Vertices of equal price go in the order of the patch, so the outcome is a function of the patch alone.
+// Vertices of equal price are removed in the order of the patch, so the result depends on the patch only.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,9 @@ struct RemovalCounts {
   std::uint64_t searches = 0;  ///< number of rings examined
 };
 
-/// Removes vertices until none can go. `settled`: by node, 1 where it is known that it cannot; brought up to date,
-/// unless the time was up before the end: it is asked before each vertex, if there is someone to ask.
-/// REQUIRES: every triangle of the patch keeps the threshold; settled.size() == patch.node_count().
+/// Removes vertices until none can be removed. Calls is_time_up(), if not empty, before each vertex. `settled`: by
+/// node, 1 if it certainly cannot be removed; updated unless the time was up. REQUIRES: every triangle of the patch is
+/// within the threshold; settled.size() == patch.node_count().
 RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape,
                               const std::function<bool()>& is_time_up, std::vector<std::uint8_t>& settled);
 

@@ -1,7 +1,7 @@
 // The order in which vertices are removed: the cheapest first.
 //
-// The price of a vertex is the energy of the best triangles of the ring around it (ring_search.h), less that of the
-// triangles around it. Vertices with a short edge go before all others.
+// The price of a vertex is the energy of the best triangles of its ring (ring_search.h) less that of the triangles
+// around it. Vertices with a short edge are removed first.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace scarp {
 
 class RemovalQueue {
  public:
-  /// All stay alive. Nodes are neither added nor deleted meanwhile.
+  /// All must outlive this object. Meanwhile, nodes are neither added nor deleted.
   RemovalQueue(const Patch& patch, const TriangleError& error, const ShapeRule& shape)
       : patch_(patch), shape_(shape), search_(error, shape), notes_(patch.node_count()), queue_(patch.node_count()) {
     for (Patch::Id v = 0; v < patch.node_count(); ++v) notes_[v].witness = error.sample_near(patch.at(v));
   }
 
-  /// Calls pass.remove(v, star, triangles), which returns the nodes around which something has changed, for the
-  /// cheapest vertex until none can go, or pass.is_over(). Vertices for which pass.wants(v) are tried first.
-  /// pass.energy_of(face): a triangle's energy.
+  /// Calls pass.remove(v, star, triangles) for the cheapest vertex until no vertex can be removed, or pass.is_over().
+  /// remove() returns the nodes around which something has changed. Vertices for which pass.wants(v) is true are tried
+  /// first. pass.energy_of(face): a triangle's energy.
   template <class Pass>
   void run(Pass& pass) {
     for (Patch::Id v = 0; v < patch_.node_count(); ++v) {
@@ -48,10 +48,10 @@ class RemovalQueue {
  private:
   struct Note {
     std::uint64_t code = 0;  // the triangles that would replace the vertex
-    Point witness;           // against its removal
+    Point witness;           // sample that last prevented its removal
   };
 
-  /// True if v's ring has a triangulation; stores its star in star_ and the best triangles in search_.
+  /// True if v's ring has a triangulation. Stores v's star in star_ and the best triangles in search_.
   template <class Pass>
   bool look_at(Patch::Id v, Pass& pass, float& price) {
     ++searches_;

@@ -8,10 +8,10 @@ namespace scarp {
 
 namespace {
 
-/// Triangles nearer to the bound than this, in thresholds, are worth a flip.
+/// Errors above this, in thresholds, justify a flip.
 constexpr double kWorthChange = 0.9;
-/// The excess up to which there is hope, before the first round and after each; of what lies above, less than a tenth
-/// would be mended. The last one holds for all further rounds.
+/// The largest excess for which repair continues, before the first round and after each. Above it, less than a tenth of
+/// the cases could be repaired. The last value applies to all further rounds.
 constexpr std::array<double, 5> kHopes{2.5, 1, 0.42, 0.22, 0.11};
 
 double hope_after(int rounds) { return kHopes[std::min(static_cast<std::size_t>(rounds), kHopes.size() - 1)]; }
@@ -62,7 +62,7 @@ Patch::Id Repair::insert(const FitCorner& place, Patch::Id face, std::optional<u
   return v;
 }
 
-/// Mends what a removal broke, or undoes all of it.
+/// Repairs the bound after a removal, or undoes the removal.
 bool Repair::finish() {
   if (!mend()) {
     patch_.roll_back();
@@ -97,7 +97,7 @@ bool Repair::mend() {
   }
 }
 
-/// True if a triangle around v has more than this share of the threshold.
+/// True if a triangle around v has an error above this share of the threshold.
 bool Repair::is_strained(Patch::Id v, double share) {
   patch_.find_star(v, star_);
   return std::any_of(star_.faces.begin(), star_.faces.end(),
@@ -124,7 +124,7 @@ Repair::Excess Repair::excess() const {
   return excess;
 }
 
-/// Edges of triangles around v that have more than this share of the threshold.
+/// Tries to flip edges of triangles around v with errors above this share of the threshold.
 void Repair::flip_around(Patch::Id v, double share) {
   patch_.find_star(v, star_);
   for (const Patch::Id f : star_.faces) {
@@ -134,7 +134,7 @@ void Repair::flip_around(Patch::Id v, double share) {
   }
 }
 
-/// Not where only a neighbour is another one.
+/// False if only a link to a neighbour changed.
 bool Repair::has_changed(const Journal<Patch::Face>::Copy& copy) const {
   const auto& corners = patch_.face(copy.index).corners;
   return corners != copy.before.corners || std::any_of(corners.begin(), corners.end(), [this](Patch::Id v) {

@@ -13,7 +13,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 std::size_t lowest(std::uint32_t set) { return static_cast<std::size_t>(std::countr_zero(set)); }
 constexpr std::uint32_t only(std::size_t corner) { return 1u << corner; }
 
-/// Visits the triangles of a triangulation in order: `middle` returns the third corner of the one at an interval.
+/// Visits the triangles of a triangulation in order. `middle` returns the third corner of an interval's triangle.
 template <class Middle, class Visit>
 void each_triangle(std::size_t corners, const Middle& middle, const Visit& visit) {
   struct Interval {
@@ -52,10 +52,10 @@ bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Poi
       if (is_needed(first, first + length) && !improve(first, first + length, witness)) return false;
     }
   }
-  return energy() < kInfinity;  // energies beyond float32 are those of no triangulation
+  return energy() < kInfinity;  // infinite if there is no triangulation
 }
 
-/// Fills the table of an interval; false where the ring turns out to have no triangulation.
+/// Fills the table of an interval; false if the ring proves to have no triangulation.
 bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
   float& best = cost_[first][last];
   best = kInfinity;
@@ -82,7 +82,7 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
   return true;
 }
 
-/// Moves the corners so that the sample is the origin, and multiplies them pairwise.
+/// Moves the corners so that the sample is the origin, and computes their pairwise cross products.
 void RingSearch::look_from(Point sample) {
   const double height = error_.value_at(0, sample);
   limit_ = error_.limit_at(sample);
@@ -118,7 +118,7 @@ void RingSearch::keep_positive() {
   }
 }
 
-/// A hub on a side is in line with the first and the last of its ring.
+/// A hub on a side is collinear with the first and the last corner of its ring.
 void RingSearch::keep_shapely(const FitCorner& hub) {
   TriangleShape floor = shape_.least();
   for (std::size_t i = 0; i < size_; ++i) {
@@ -139,9 +139,9 @@ void RingSearch::keep_shapely(const FitCorner& hub) {
   }
 }
 
-/// Forbids the triangles that hold the given sample and break the threshold there; returns whether there are any.
-/// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned. Without branches
-/// inside, as it is unpredictable which triangles hold the sample.
+/// Excludes the triangles that contain the given sample and break the threshold there; true if there are any. Rounding
+/// may exclude a triangle exactly at the threshold; it never accepts a wrong one, since the others are scanned. The
+/// inner loop avoids branches, which would be unpredictable.
 template <class AddMore>
 bool RingSearch::cross_out_by(const AddMore& add_more) {
   Set any = 0;
@@ -175,8 +175,8 @@ bool RingSearch::cross_out() {
   });
 }
 
-/// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole
-/// cannot. Inner intervals first, then outer ones; without branches, which would be unpredictable.
+/// Finds the intervals that can be triangulated, from short to long ones, then those that a triangulation of the whole
+/// ring needs. False if the ring has no triangulation. Without branches, which would be unpredictable.
 bool RingSearch::connect() {
   std::array<Set, kMostCorners> open_to;  // first corners of intervals that can be triangulated
   for (std::size_t j = 1; j < size_; ++j) open_to[j] = only(j - 1);

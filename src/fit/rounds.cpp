@@ -12,10 +12,10 @@ namespace scarp {
 
 namespace {
 
-/// How far from the borders of patches the last round of repair begins, in edges.
+/// Width in edges of the strip along earlier borders where the last round of repair begins.
 constexpr int kBorderWidth = 2;
 
-/// Marks the neighbours of marked nodes too.
+/// Also marks the neighbours of marked nodes.
 void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
   const std::vector<std::uint8_t> before = marks;
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
@@ -45,7 +45,7 @@ void set_range(const Raster& raster, const FitOptions& options, MoveRules& rules
     if (read) read({{0, y}, raster.cols, 1}, buffer.data(), raster.cols);
     const float* const row = read ? buffer.data() : raster.row(y);
     for (std::int32_t x = 0; x < raster.cols; ++x) {
-      // False where the sample is nodata.
+      // Both are false for nodata.
       if (row[x] < rules.lowest) rules.lowest = row[x];
       if (row[x] > rules.highest) rules.highest = row[x];
     }
@@ -88,7 +88,7 @@ bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
 bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held) {
   return work_on(
       grid, end, steps_of_moves(), [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
-        // One bound alone, and that beyond energies.
+        // A single bound, outside the range of energies.
         if (!error.has_energy()) return FitCounts{};
         const std::vector<std::uint8_t> wanted = only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
         RepairOptions here = options;
@@ -131,8 +131,8 @@ Fitted Rounds::finish() {
   return std::move(fitted_);
 }
 
-/// Cuts, calls work(patch, vertices, error), which counts its changes, for each patch, and joins, to a lattice of so
-/// many steps.
+/// Cuts patches, calls work(patch, vertices, error), which counts its changes, for each, and joins them on a lattice of
+/// `steps` steps.
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());
@@ -150,7 +150,7 @@ bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work
   return true;
 }
 
-/// Runs in parallel, and reports the progress; counts_ of a patch are added when it is done.
+/// Runs in parallel, and reports progress. Adds counts_ of each finished patch.
 bool Rounds::each_patch(std::size_t count, double begin, double end,
                         FunctionRef<void(std::size_t i, std::size_t worker)> one) {
   bool goes_on = true;
@@ -199,7 +199,7 @@ void Rounds::add(const FitCounts& counts) {
   fitted_.counts.tried += counts.tried;
 }
 
-/// A vertex that is free in one patch is in no other, so patches write to elements of their own.
+/// A vertex that is free in one patch is in no other, so patches write to separate elements.
 FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error,
                          bool relocates) {
   std::vector<std::uint8_t> settled;
@@ -220,7 +220,7 @@ FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, cons
   return {counts.removed, counts.searches, 0, 0};
 }
 
-/// Vertices of more than one patch were on a border.
+/// Vertices in more than one patch were on a border.
 void Rounds::hold_borders(const std::vector<std::vector<Vertex>>& vertices) {
   std::vector<bool> is_seen(held_.size(), false);
   for (const std::vector<Vertex>& of_patch : vertices) {

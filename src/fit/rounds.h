@@ -1,4 +1,4 @@
-// One round of fitting after the other, on squares that are shifted against each other.
+// Successive rounds of fitting, in squares shifted against each other.
 #pragma once
 
 #include <cstdint>
@@ -14,32 +14,32 @@ namespace scarp {
 
 class Rounds {
  public:
-  /// Raster and options stay alive.
+  /// Raster and options must outlive this object.
   Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 
-  /// A round of removal; `relocates`: then each vertex makes a step, and removal continues. `end`: the share of the
-  /// whole work that is done after the round. False if it was cancelled, as those below.
+  /// A round of removal. `relocates`: each vertex then makes a step, and removal continues. `end`: finished share of
+  /// the whole work after the round. This and the other rounds return false if cancelled.
   bool run(const PatchGrid& grid, double end, bool relocates = false);
 
-  /// A round of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
+  /// A round of removal with repair. `only_held`: begins with the vertices near those on borders of repair so far.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false);
 
-  /// The options of a round of repair; `shake` as there.
+  /// The options of a round of repair. `shake`: see RepairOptions.
   RepairOptions repair_options(int polishes, std::uint32_t shake) const {
     return {options_.depth.repair, rules_, shake, polishes, {}, options_.is_time_up};
   }
 
-  /// For squared errors: prepares each patch, hands all of them to `between`, then calls `job` for each.
+  /// For squared errors: prepares each patch, passes all of them to `between`, then calls `job` for each.
   using Prepare = FunctionRef<void(Patch& patch, const TriangleError& error)>;
   using Between = FunctionRef<void(std::span<const Patch> patches)>;
   using Job = FunctionRef<void(std::size_t i, Patch& patch, const TriangleError& error)>;
   bool work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job);
 
-  /// Removal handles the vertices that it has had on borders itself.
+  /// Forgets borders of removal, which handles their vertices itself.
   void forget_held() { held_.assign(held_.size(), 0); }
 
   const Triangulation& tin() const { return fitted_.tin; }
-  /// Rules of moves other than removal: without the floor where that yields.
+  /// Rules of moves other than removal, without the floor if it yields.
   MoveRules rules_of(const Patch& patch) const;
 
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
@@ -69,8 +69,8 @@ class Rounds {
   const FitOptions& options_;
   MoveRules rules_;
   Fitted fitted_;
-  std::uint64_t vertices_;                     // vertices of the mesh that was given
-  double done_ = 0;                            // share of the whole
+  std::uint64_t vertices_;                     // vertices of the input mesh
+  double done_ = 0;                            // finished share of the work
   std::vector<std::uint8_t> settled_;          // by vertex
   std::vector<std::uint8_t> held_;             // by vertex: it has been on a border between patches
   std::vector<PatchCutter::Scratch> scratch_;  // by thread

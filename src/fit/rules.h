@@ -1,4 +1,4 @@
-// The limits of fitting besides the bound: positions of vertices, and the shape of triangles.
+// The limits of fitting in addition to the bound: positions of vertices, and shapes of triangles.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ enum class Freedom : std::uint8_t {
   kLattice,  ///< on the lattice of fitting, at any height
 };
 
-/// Shape of a triangle; each part is compared for itself, so that none pays for the other.
+/// Shape of a triangle. Both parts are compared separately, so a gain in one never offsets a loss in the other.
 struct TriangleShape {
-  double form = 0;  ///< how far it is from being thin
+  double form = 0;  ///< larger for less thin triangles
   double edge = 0;  ///< the square of the shortest edge, at most ShapeRule::shortest_square
 
   bool keeps(const TriangleShape& floor) const { return form >= floor.form && edge >= floor.edge; }
@@ -27,21 +27,21 @@ struct TriangleShape {
   }
 };
 
-/// How thin triangles, and how long edges, may be. A move must not make a triangle that is thinner than the floor,
-/// unless the move removes one that is as thin, nor a shorter edge, unless it removes one as short: slivers that a mesh
-/// begins with, or that its outline wants, are thus never made worse and hold up no move.
+/// The limits of thin triangles and short edges. A move must not create a triangle thinner than the floor unless it
+/// removes one as thin, nor a too short edge unless it removes one as short. So slivers that the initial mesh has or
+/// its outline needs never become worse, and do not prevent moves.
 struct ShapeRule {
   double floor = 0;       ///< 0: any shape
   double aspect = 1;      ///< aspect of a sample: its height over its width
-  bool by_angle = false;  ///< the form is the square of the smallest angle's sine instead
-  double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the form 0
-  double shortest_square = 0;                                       ///< no edge is too short from here on
-  bool edge_first = false;  ///< the form yields: an edge that is too short is as bad as one so much thinner
+  bool by_angle = false;  ///< the form is the squared sine of the smallest angle
+  double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with a longer edge has form 0
+  double shortest_square = 0;                                       ///< shorter edges are too short
+  bool edge_first = false;                                          ///< a too short edge lowers the form in proportion
 
   bool is_on() const { return floor > 0; }
   TriangleShape least() const { return {floor, shortest_square}; }
-  /// Twice the area over the square of the longest edge, that is, height over longest edge: 0.87 where all edges are
-  /// equal. The same whichever corner comes first; for square samples the exact quotient, rounded once.
+  /// Twice the area over the squared longest edge, that is, height over longest edge: 0.87 if all edges are equal.
+  /// Independent of the first corner. For square samples the exact quotient, rounded once.
   TriangleShape shape(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
     return of(static_cast<double>(area2(a, b, c)), square(a, b), square(b, c), square(c, a));
   }
@@ -55,21 +55,20 @@ struct ShapeRule {
     const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
     return {std::min(most, area * aspect / longest * (area * aspect / middle)), edge};
   }
-  /// True if an edge is shorter than it may be.
+  /// True if an edge is too short.
   bool is_short(const FitCorner& p, const FitCorner& q) const { return square(p, q) < shortest_square; }
   /// Squared length of an edge.
   double square(const FitCorner& p, const FitCorner& q) const {
     const double x = q.x - p.x, y = (q.y - p.y) * aspect;
     return x * x + y * y;
   }
-  /// The floor for moves that remove the triangle, too.
+  /// The floor lowered for a move that removes the triangle.
   TriangleShape lowered(const TriangleShape& to, const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
     return to.worse_of(shape(a, b, c));
   }
 };
 
-/// Removal begins with vertices at edges that are too short: this is subtracted from the energy that their removal
-/// costs.
+/// Subtracted from the price of vertices at too short edges, so they are removed first.
 inline constexpr float kShortEdgeFirst = 1e30f;
 
 inline bool has_short_edge(const ShapeRule& rule, const FitCorner& hub, const std::vector<FitCorner>& ring) {
@@ -80,7 +79,7 @@ inline bool has_short_edge(const ShapeRule& rule, const FitCorner& hub, const st
 struct MoveRules {
   Freedom freedom = Freedom::kSamples;
   ShapeRule shape = {};
-  /// Between them the heights of free vertices stay.
+  /// Limits of the heights of free vertices.
   float lowest = -std::numeric_limits<float>::infinity(), highest = std::numeric_limits<float>::infinity();
 };
 

@@ -10,7 +10,7 @@ namespace scarp {
 
 namespace {
 
-constexpr std::int64_t kMostPerTriangle = 1024;  // samples worth copying
+constexpr std::int64_t kMostPerTriangle = 1024;  // samples that are worth copying
 
 /// Floats in a row: an odd number of cache lines.
 std::int32_t stride_of(std::int32_t cols) { return ((cols + 31) & ~31) + 16; }
@@ -23,7 +23,7 @@ void copy(const Raster& from, const Patch::Window& window, std::int32_t stride, 
   }
 }
 
-/// Bounds of the valid samples of a window that are some.
+/// The range of the bounds of a window's valid samples.
 class BoundRange {
  public:
   BoundRange(const Raster& raster, const Raster& bounds, const Patch::Window& window) {

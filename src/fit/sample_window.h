@@ -1,5 +1,5 @@
-// The samples under a patch in a buffer of their own: rows of the raster lie so far apart that a small triangle's
-// samples compete for the same lines of a cache.
+// The samples under a patch in a separate buffer. Rows of the raster are so far apart in memory that a small triangle's
+// samples compete for the same cache lines.
 #pragma once
 
 #include <cstddef>
@@ -18,19 +18,19 @@
 
 namespace scarp {
 
-/// Copies samples of a raster that are not in memory, `stride` floats a row.
+/// Copies samples that are not in memory, `stride` floats per row.
 using ReadWindow = std::function<void(const Patch::Window& window, float* to, std::ptrdiff_t stride)>;
 
-/// Keeps its memory between patches.
+/// Reuses its memory for the next patch.
 class SampleWindow {
  public:
-  /// The errors of triangles of the patch. A few long triangles may reach over samples that no other reads: then they
-  /// are read in place. The window and the raster stay alive, and unchanged, as long as the errors. `bounds`: of the
-  /// raster's samples, or empty; where all that the patch reads are equal they are its threshold, else it has bounds.
-  /// `norm`: of whose fields errors are; null: of heights alone.
+  /// The errors of triangles of the patch. If the window is large for few triangles, its samples are read in place. The
+  /// window and the raster must stay alive and unchanged while the errors are used. `bounds`: bounds of the raster's
+  /// samples, or empty; if all in the window are equal, they replace the threshold. `norm`: combines several fields;
+  /// null: errors of heights only.
   TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
                        double threshold);
-  /// The errors of heights alone, whose samples are read, and their bounds if they have some of their own.
+  /// The errors of heights only. `read` supplies the samples, and `read_bounds`, if not empty, their bounds.
   TriangleError errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch, double threshold);
   /// The errors at scattered samples.
   TriangleError errors(const ScatteredSamples& points, const Patch& patch, double threshold);

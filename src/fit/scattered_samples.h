@@ -1,5 +1,5 @@
-// Samples that lie on no grid: the questions that fitting asks them. The answers for points: point_error.h. Builds that
-// fit rasters only link none of these.
+// The interface of fitting to samples without a grid. point_error.h implements it for points. Builds that fit only
+// rasters do not link the implementation.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ class ScatteredErrors {
 
   virtual ~ScatteredErrors() = default;
 
-  /// The functions of TriangleError with these names; `limit`: slack × threshold. What `Point` names a sample by is the
-  /// implementation's choice.
+  /// Like the functions of TriangleError with these names. `limit`: slack × threshold. The implementation chooses how a
+  /// `Point` identifies a sample.
   virtual TriangleError::Verdict assess(const Corners& corners, float energy_limit, double limit,
                                         ErrorRule::Power power) const = 0;
   virtual TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const = 0;
@@ -29,12 +29,12 @@ class ScatteredErrors {
   virtual double threshold() const = 0;
   virtual FitCorner at(Point sample) const = 0;
   virtual Point nearest(const FitCorner& place) const = 0;
-  /// The slopes of the plane of least squares through the samples around a place, heights a kLatticeSteps; 0 where
-  /// there are too few.
+  /// The slopes of the least-squares plane through the samples around a place, in height per kLatticeSteps; 0 if there
+  /// are too few.
   virtual std::array<double, 2> slope_at(const FitCorner& place) const = 0;
 };
 
-/// All samples, in place of a raster's. They lie on the lattice of fitting itself.
+/// All samples, instead of a raster's. They lie on the lattice of fitting.
 class ScatteredSamples {
  public:
   /// `last`: the last column and row of the lattice. `lowest`, `highest`: the range of the heights.
@@ -45,8 +45,8 @@ class ScatteredSamples {
   float lowest() const { return lowest_; }
   float highest() const { return highest_; }
 
-  /// The errors over a window of cells of kLatticeSteps, in `kept`, whose memory it uses again: empty, or from here.
-  /// REQUIRES: threshold >= 0, finite.
+  /// The errors over a window of cells of kLatticeSteps, stored in `kept`, whose memory is reused. REQUIRES: `kept` is
+  /// empty or from this function; threshold >= 0, finite.
   virtual const ScatteredErrors& over(const Patch::Window& window, double threshold,
                                       std::unique_ptr<ScatteredErrors>& kept) const = 0;
 

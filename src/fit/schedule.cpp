@@ -13,7 +13,7 @@ namespace {
 
 using Id = Patch::Id;
 
-/// If all are locked, arithmetic may have ended (cut.h).
+/// If all are locked, the patch may exceed the range of the arithmetic (cut.h).
 bool has_free_vertex(const Patch& patch) {
   for (Id v = 0; v < patch.node_count(); ++v) {
     if (!patch.is_locked(v)) return true;
@@ -93,7 +93,7 @@ void Schedule::sweep() {
   }
 }
 
-/// Its new edge is the last of both faces.
+/// The new edge is the last of both faces.
 void Schedule::unsettle_flipped(Id face) {
   const Patch::Quad q = patch_.quad(face, 2);
   for (const Id v : {q.a, q.b, q.c, q.d}) is_settled_[v] = 0;
@@ -104,7 +104,7 @@ void Schedule::shake() {
   std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
   std::uint32_t dice = options_.shake;
   for (Id v = 0; v < patch_.node_count(); ++v) {
-    // Numerical Recipes' congruential generator, its bits mixed.
+    // The congruential generator of Numerical Recipes, with mixed bits.
     dice = dice * 1664525u + 1013904223u;
     if (!patch_.is_removed(v)) step.shake(strict_, v, (dice ^ dice >> 15) * 0x2c1b3c6du);
   }

@@ -1,12 +1,12 @@
-// The vertices that are removed with repair, and their order.
+// The order in which vertices are removed with repair.
 //
-// Like in removal (removal.h) the cheapest goes first (removal_queue.h), but with the slack of repair and with Σ t⁸,
-// which weighs what is near the bound. A successful repair makes the prices of all corners of changed triangles stale.
-// Before, one sweep of flips and steps over the whole patch, under the bound itself, puts vertices and edges where
-// removal wants them: without it a second round would find what the first left.
+// As in removal (removal.h), the cheapest vertex is removed first (removal_queue.h), but with the slack of repair and
+// with Σ t⁸, which emphasises errors near the bound. A successful repair makes the prices of all corners of changed
+// triangles stale. First, one sweep of flips and steps over the whole patch, within the bound itself, moves vertices
+// and edges to places good for removal. Without the sweep, a first round would miss vertices that a second one removes.
 //
-// On Fuji and Crater Lake at 2 to 0.5 % of the relief 2 to 4 % more triangles stay without the sweep, 2 to 5 % more
-// after one round than after two; a third removes 1 to 2 % more.
+// On Fuji and Crater Lake at 2 to 0.5 % of the relief, 2 to 4 % more triangles remain without the sweep, and 2 to 5 %
+// more after one round than after two; a third removes 1 to 2 % more.
 #pragma once
 
 #include <cstddef>
@@ -25,34 +25,34 @@ namespace scarp {
 struct RepairOptions {
   RepairDepth depth = {};
   MoveRules rules = {};
-  std::uint32_t shake = 0;  ///< other than 0: vertices are shaken first, by dice that this is the seed of
-  int polishes = 0;         ///< sweeps that lower the squared error at the end, over all vertices
+  std::uint32_t shake = 0;                    ///< unless 0, vertices are shaken first; seed of the random moves
+  int polishes = 0;                           ///< final sweeps over all vertices that lower the squared error
   std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to try first; EMPTY: all
-  std::function<bool()> is_time_up = {};      ///< asked before each vertex; true ends the rest but for polishing
+  std::function<bool()> is_time_up = {};      ///< called before each vertex; true ends all but polishing
 };
 
 struct RepairCounts {
   std::uint64_t removed = 0;  ///< vertices
-  std::uint64_t tried = 0;    ///< removals that were begun
+  std::uint64_t tried = 0;    ///< removals that were tried
 };
 
-/// Removes vertices of the patch.
-/// REQUIRES: every triangle of the patch keeps the threshold of `error`, which has energies.
+/// Removes vertices of the patch. REQUIRES: every triangle of the patch is within the threshold of `error`, which has
+/// energies.
 RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const RepairOptions& options);
 
-/// The steps of it, by an energy of either power. Patch, errors and options stay alive; nodes are neither added nor
-/// deleted by others meanwhile.
+/// The steps of repair_vertices(), with an energy of either power. Patch, errors and options must outlive this object;
+/// nothing else may add or delete nodes meanwhile.
 class Schedule {
  public:
   Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power power, const RepairOptions& options);
 
-  /// Errors and energies of all triangles by the power. REQUIRED before the others.
+  /// Computes errors and energies of all triangles by the power. Call it before the others.
   void measure_all();
-  /// Tries each edge once, and one step of each vertex around which anything has changed since its last step found
-  /// nothing, under the bound itself.
+  /// Tries to flip each edge once, then one step of each vertex, within the bound itself. Skips vertices around which
+  /// nothing has changed since a step failed.
   void sweep();
   void shake();
-  /// The cheapest vertex first, until no more than `most` triangles are left, or none can go.
+  /// Removes vertices, the cheapest first, until at most `most` triangles remain, or no vertex can be removed.
   void remove_all(std::size_t most = 0);
   /// REQUIRES: vertices are free.
   void collapse();
@@ -71,11 +71,11 @@ class Schedule {
   const RepairOptions& options_;
   Repair repair_;
   Patch::Star star_;
-  std::vector<std::uint8_t> is_settled_;  // by node, 1 where a step found nothing and nothing has changed around since
+  std::vector<std::uint8_t> is_settled_;  // by node, 1 if a step failed and nothing has changed around it since
   RepairCounts counts_;
 };
 
-/// Triangles of the patch.
+/// Number of triangles of the patch.
 std::size_t count_faces(const Patch& patch);
 
 }  // namespace scarp

@@ -13,16 +13,16 @@ namespace scarp {
 
 namespace {
 
-/// Share of the triangles that the first exchange removes, and where exchanges end.
+/// Share of the triangles that the first exchange removes, and the share below which exchanges end.
 constexpr double kFirstExchange = 0.1, kLastExchange = 0.004;
-/// From the third on exchanges become smaller by this, where one has failed by kFailed.
+/// Factor of the share from the third exchange on; after a failed exchange kFailed instead.
 constexpr double kSmaller = 0.8, kFailed = 0.5;
-/// Factor to which Σ e² must fall for an exchange to stay.
+/// Factor to which Σ e² must fall for an exchange to be accepted.
 constexpr double kWorthExchange = 0.9995;
-/// Triangles over those that are wanted, after the rounds that reduce a mesh in patches.
+/// Triangles relative to the wanted number after each round that reduces a mesh in patches.
 constexpr double kReductions[] = {1.6, 1.15, 1};
 constexpr int kSweepsAfterReduction = 3, kSweepsAfterExchange = 2, kLastSweeps = 6;
-/// Rounds that may follow until the budget is kept.
+/// Most rounds that follow until the mesh is within the budget.
 constexpr int kCorrections = 4;
 
 double energy_of(const Patch& patch) {
@@ -75,7 +75,7 @@ class SquareRounds {
         this->exchange(patch, error, of, share);
       };
       if (!round(1, end, exchange)) return false;
-      // Known from the next round on: what the one before has left.
+      // The energy after a round is known in the next round.
       if (i > 0) share *= energy_ < kWorthExchange * before ? (i > 2 ? kSmaller : 1) : kFailed;
       before = energy_;
     }
@@ -93,7 +93,7 @@ class SquareRounds {
     return true;
   }
 
-  /// The budget comes first.
+  /// Meets the budget, even if the squared error rises.
   bool correct() {
     for (int i = 0; i < kCorrections; ++i) {
       excess_ = 0;
@@ -113,7 +113,7 @@ class SquareRounds {
 
   using Work = FunctionRef<void(Patch& patch, const TriangleError& error, Share share)>;
 
-  /// `over`: triangles that are to be left, over those of the budget.
+  /// `over`: wanted triangles relative to the budget.
   bool round(double over, double end, Work work) {
     const std::int32_t now = side();
     const PatchGrid grid{now, now < longest() && count_++ % 2 == 1 ? now / 2 : 0};
@@ -131,7 +131,7 @@ class SquareRounds {
     return goes_on;
   }
 
-  /// How many triangles each patch is to have.
+  /// The wanted number of triangles of each patch.
   std::vector<Share> allot(std::span<const Patch> patches, double over) {
     std::vector<Share> shares(patches.size());
     energy_ = 0;
@@ -146,7 +146,7 @@ class SquareRounds {
     }
     const double wanted = over * static_cast<double>(wanted_triangles(all));
     if (!(weights > 0)) return shares;
-    // Vertices that could not be removed last time will not be removed now.
+    // Vertices that could not be removed last time will remain this time.
     if (last_wanted_ > 0) excess_ = std::max(0.0, excess_ + static_cast<double>(all) - last_wanted_);
     last_wanted_ = wanted;
     double carried = 0;
@@ -162,7 +162,7 @@ class SquareRounds {
     return std::cbrt(share.energy * n * n);
   }
 
-  /// A vertex is two triangles, but on the sides.
+  /// Each vertex adds two triangles, except on the sides.
   std::uint64_t wanted_triangles(std::size_t all) const {
     const SquareGoal& goal = *options_.squares;
     std::uint64_t wanted = goal.most_triangles;
@@ -211,7 +211,7 @@ class SquareRounds {
            of.target - std::min(of.target, static_cast<std::size_t>(std::max(2.0, share * target))));
     insert(patch, error, options, of.target);
     sweep(patch, error, options, kSweepsAfterExchange);
-    // Σ e² is expected to change with the triangles that come from other patches or go there.
+    // Σ e² is expected to change when triangles move between patches.
     const double scale = had / target;
     if (energy_of(patch) < kWorthExchange * of.energy * scale * scale) return;
     patch = before;
@@ -228,7 +228,7 @@ class SquareRounds {
 
   std::int32_t longest() const { return std::max(raster_.cols, raster_.rows); }
 
-  /// Side of squares of some kPatchTriangles of the budget, for narrow rasters of shorter pieces.
+  /// Side of squares of some kPatchTriangles of the budget; on a narrow raster, length of pieces.
   std::int32_t side() const {
     const std::uint64_t wanted = wanted_triangles(rounds_.tin().triangle_count());
     const std::int32_t most = options_.most_side > 0 ? std::min(options_.most_side, longest()) : longest();
@@ -243,7 +243,7 @@ class SquareRounds {
   const FitOptions& options_;
   Rounds rounds_;
   RepairOptions repair_;
-  int count_ = 0;  // rounds
+  int count_ = 0;  // number of rounds
   double energy_ = 0, excess_ = 0, last_wanted_ = 0;
   std::size_t triangles_ = 0;
 };

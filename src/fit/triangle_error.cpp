@@ -53,7 +53,7 @@ TriangleError TriangleError::with(const ErrorRule& rule) const {
 
 SampleRows TriangleError::rows() const { return {raster_.row(first_.y) + first_.x, raster_.cols, end_}; }
 
-/// The samples of a triangle against one threshold.
+/// Comparison of a triangle's samples with one threshold.
 struct TriangleError::ByThreshold {
   const TriangleError& of;
   TriangleTask task;
@@ -67,9 +67,8 @@ struct TriangleError::ByThreshold {
   float excess(float error, Point) const { return error; }
 };
 
-/// The same against bounds of their own. Among the roundings that a guard holds (scan_plane.h) 2u·error, and those of
-/// the bound, grow with a bound; u = 2⁻²⁴. So the guard of a threshold of 0 will do if bounds are widened or narrowed
-/// by 16u.
+/// The same with bounds of samples. Among the roundings in a guard (scan_plane.h), only 2u·error and those of the bound
+/// grow with the bound; u = 2⁻²⁴. So the guard for a threshold of 0 suffices if bounds are widened or narrowed by 16u.
 template <class Sums>
 struct TriangleError::ByBounds {
   static constexpr float kWider = 1 + 0x1p-20f, kNarrower = 1 - 0x1p-20f;
@@ -79,7 +78,7 @@ struct TriangleError::ByBounds {
   Sums sums;  // sums of errors in bounds
   float limit;
   const float* end;
-  // By how much errors exceed bounds, lane by lane; beyond the guard, either way, there is no doubt.
+  // Excess of errors over bounds, lane by lane; without doubt beyond the guard, in either direction.
   Floats over_limit, over, nearly_over;
 
   ByBounds(const TriangleError& error, const FitCorner& a, const FitCorner& b, const FitCorner& c)
@@ -117,7 +116,7 @@ struct TriangleError::ByBounds {
 
 namespace {
 
-/// A triangle as exact arithmetic wants it.
+/// A triangle for exact arithmetic.
 struct ExactTriangle {
   std::array<Point, 3> corners;
   std::array<float, 3> heights;
@@ -130,7 +129,7 @@ struct ExactTriangle {
   }
 };
 
-/// By Pick's theorem: the smallest triangle whose corners are samples.
+/// By Pick's theorem, true for the smallest triangles with corners on samples.
 bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
   if (((a.x | a.y | b.x | b.y | c.x | c.y) & (kLatticeSteps - 1)) != 0) return false;
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == kLatticeSteps * kLatticeSteps;
@@ -209,7 +208,7 @@ TriangleError::Verdict TriangleError::assess_by_bounds(const FitCorner& a, const
   return verdict;
 }
 
-/// True if the triangle keeps the threshold; `worst` is adjusted.
+/// True if the triangle is within the threshold. Adjusts `worst`.
 template <class Tally>
 bool TriangleError::decide(const Tally& tally, Verdict& verdict) const {
   const bool keeps = !tally.breaks(verdict.worst) && (!tally.is_in_doubt(verdict.worst) || settle(tally, verdict));
@@ -227,7 +226,7 @@ float on_side_of(double threshold, bool keeps, float error) {
   return std::max(error, nearest);
 }
 
-/// With bounds the error in them, else itself.
+/// The error in bounds, if there are any, else the error.
 float TriangleError::in_thresholds(float error, Point sample) const {
   if (!has_bounds()) return error;
   const float bound = bound_at(sample);
@@ -268,7 +267,7 @@ TriangleError::Verdict TriangleError::assess_corners(const std::array<FitCorner,
   return verdict;
 }
 
-/// Decides in exact arithmetic about the samples that are in doubt by rounding; false where one breaks the threshold.
+/// Decides in exact arithmetic about samples that are doubtful because of rounding; false if one breaks the threshold.
 template <class Tally>
 bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
   const TriangleTask& task = tally.task;
@@ -287,7 +286,7 @@ bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
   });
 }
 
-/// The sample of a row with the largest error, or excess over its bound.
+/// The sample of a row with the largest error or, with bounds, the largest excess.
 template <class Tally>
 Point TriangleError::find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const {
   const float row = tally.task.row_height(y);

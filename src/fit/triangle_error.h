@@ -1,15 +1,15 @@
-// How far the samples of one trial triangle lie off its plane: the innermost loop of fitting.
+// Errors of the samples of one trial triangle: the innermost loop of fitting.
 //
 // Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and returns that
-// sample: the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
-// (geom/scan_kernels.h) on a lattice of 256ths of a sample, summed in eight lanes whatever the machine has; what lies
-// within the guard of the threshold is decided exactly.
+// sample: it is likely to break other triangles over the same place. The arithmetic is that of the scan kernels
+// (geom/scan_kernels.h) on a lattice of 256ths of a sample, summed in eight lanes on every machine. Errors within the
+// guard of the threshold are decided exactly.
 //
-// Samples may have bounds of their own instead of the threshold: then errors count in bounds, the threshold is 1, and a
-// vertex' pull at a sample is the stronger the smaller its bound. A bound that lies within rounding (0, first of all)
-// binds, but has no energy: what is computed there would be noise.
+// Samples may have their own bounds instead of the threshold. Then errors count in bounds, the threshold is 1, and a
+// sample with a smaller bound pulls a vertex more strongly. A bound within rounding, such as 0, must be satisfied but
+// has no energy, which would be noise.
 //
-// Where channels count too, errors are norms over several fields (norm_error.h), reckoned like those with bounds.
+// If channels count too, errors are norms over several fields (norm_error.h), computed like those with bounds.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct FitCorner {
   float z = 0;                ///< at most kMaxScanHeight in magnitude
 };
 
-/// An error as computed, moved to the side of the threshold where it belongs.
+/// The computed error, moved to the exact side of the threshold.
 float on_side_of(double threshold, bool keeps, float error);
 
 /// Twice the area, positive counter-clockwise.
@@ -39,11 +39,11 @@ inline std::int64_t area2(const FitCorner& a, const FitCorner& b, const FitCorne
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
 }
 
-/// Longest side of a window: crossings of edges with rows are then rational numbers farther apart than the roundings
-/// of double (triangle_error.cpp).
+/// Longest side of a window. Up to here, crossings of edges with rows are rational numbers farther apart than the
+/// rounding of double (triangle_error.cpp).
 inline constexpr std::int32_t kMaxFitSteps = 1 << 24;
 
-/// The limits of errors, and their cost.
+/// The limits of errors, and their energy.
 struct ErrorRule {
   double slack = 1;  ///< triangles are accepted up to slack × threshold; 1 … 4
   enum class Power { kTwo, kEight };
@@ -60,69 +60,69 @@ class ScatteredErrors;
 /// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
 struct SampleBounds {
   const float* bounds = nullptr;
-  double unit = 1;  ///< above 0: bounds are some 2⁻¹⁵ … 2¹⁵ of it, or vertices will not rise as they should
+  double unit = 1;  ///< above 0; for good heights, bounds are some 2⁻¹⁵ … 2¹⁵ of it
 };
 
 class TriangleError {
  public:
-  /// Errors of the raster's samples around `first`, from where corners are counted. REQUIRES: threshold >= 0, finite.
+  /// Errors of the raster's samples. `first`: origin from which corners are counted. REQUIRES: threshold >= 0, finite.
   TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
-  /// The same by bounds; errors are counted in them, so that the threshold is 1. They stay alive.
+  /// The same with bounds, which must outlive this object. Errors count in bounds, so the threshold is 1.
   TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
-  /// Norms over several fields, which stay alive. Then corners are samples.
+  /// Norms over several fields, which must outlive this object. Corners are samples.
   explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
-  /// Errors at scattered samples, which stay alive. A sample is what they call one.
+  /// Errors at scattered samples, which must outlive this object and define the meaning of a sample's `Point`.
   explicit TriangleError(const ScatteredErrors& points, const ErrorRule& rule = {});
   /// The same samples by another rule.
   TriangleError with(const ErrorRule& rule) const;
 
   struct Verdict {
     enum class Kind : std::uint8_t {
-      kKeeps,   ///< every sample of the closed triangle lies within the limit: without slack, in exact arithmetic
-      kBreaks,  ///< one does not: the witness
-      kCostly,  ///< the energy reaches the limit, whatever the samples
+      kKeeps,   ///< every sample of the closed triangle is within the limit; exactly, if slack is 1
+      kBreaks,  ///< a sample is beyond the limit: the witness
+      kCostly,  ///< the energy reaches its limit
     };
     Kind kind = Kind::kKeeps;
-    float worst = 0;   ///< kKeeps: the largest error as computed, but at most the threshold exactly where every sample
-                       ///< keeps the threshold in exact arithmetic
-    float energy = 0;  ///< kKeeps: Σ (error / threshold)^p over the samples of the closed triangle; 0 where the
-                       ///< threshold is not within 2⁻⁶⁰ … 2⁶⁰. With bounds: Σ (error / bound)^p over the samples whose
-                       ///< bound is larger than that, and than the rounding of errors in the triangle
+    float worst = 0;   ///< kKeeps: the largest computed error, adjusted to be at most the threshold exactly if every
+                       ///< sample is within it in exact arithmetic
+    float energy = 0;  ///< kKeeps: Σ (error / threshold)^p over the samples of the closed triangle; 0 if the threshold
+                       ///< is not within 2⁻⁶⁰ … 2⁶⁰. With bounds: Σ (error / bound)^p over the samples with bounds
+                       ///< above 2⁻⁶⁰ and above the rounding of errors in the triangle
     Point witness;  ///< kBreaks: a sample, counted from the first of the window
   };
-  /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; nodata samples count for nothing.
+  /// Ignores nodata. REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less if a sample breaks the limit.
   Verdict assess(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
 
-  /// The pull of the samples on the height of corner a, and on its place. With bounds t = error / bound, and λ is the
-  /// weight times unit() / bound: what t changes by where the corner rises by a unit.
+  /// The pull of the samples on the height and the place of corner a. With bounds, t = error / bound, and λ is the
+  /// weight times unit() / bound: the change of t when the corner rises by a unit.
   struct Pull {
     double stiffness = 0;  ///< Σ t⁶ λ², t = error / threshold, λ = weight of a in the triangle at the sample
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
-    double slope_x = 0, slope_y = 0;  ///< slopes of the plane, in units() a sample
+    double slope_x = 0, slope_y = 0;  ///< slopes of the plane, in unit() per sample
   };
   /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as assess().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
 
-  /// The same for each field; of heights alone one. Fields are reckoned by their scales.
+  /// The same for each field, scaled; one pull for heights only.
   void pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const;
 
   /// The coefficients of the energy Σ tᵖ when corner a rises by d units: Σ over k of C(p, k)·moments[k]·dᵏ, moments[k]
   /// = Σ tᵖ⁻ᵏ λᵏ, k <= p.
   using Moments = std::array<double, 9>;
-  /// Adds a triangle's. REQUIRES, cost: as pull().
+  /// Adds the moments of a triangle. REQUIRES, cost: as pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
 
-  /// Rises of corner a, in units, at which samples keep the threshold, as far as rounding knows.
+  /// Rises of corner a, in units, at which samples are within the threshold, up to rounding.
   struct Room {
     float lowest, highest;
 
     bool is_open() const { return lowest < highest; }
   };
-  /// Narrows the room to what the samples of a triangle allow, but for those in which the corner hardly weighs.
-  /// REQUIRES, cost: as pull().
+  /// Narrows the room to the rises that a triangle's samples allow; ignores samples at which the corner has almost no
+  /// weight. REQUIRES, cost: as pull().
   void narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const;
 
-  double threshold() const { return threshold_; }  ///< Unit of Verdict::worst; 1 with bounds
+  double threshold() const { return threshold_; }  ///< unit of Verdict::worst; 1 with bounds
   double unit() const { return unit_; }            ///< unit of rises: the threshold, or that of the bounds
   bool has_bounds() const { return bounds_.samples != nullptr; }
   ErrorRule::Power power() const { return power_; }
@@ -138,24 +138,24 @@ class TriangleError {
   }
 
   bool has_points() const { return points_ != nullptr; }
-  /// The sample next to a place of the window.
+  /// The sample nearest to a place of the window.
   Point sample_near(const FitCorner& place) const {
     constexpr std::int32_t kHalf = kLatticeSteps / 2;
     if (points_ != nullptr) return point_near(place);
     return {(place.x + kHalf) / kLatticeSteps, (place.y + kHalf) / kLatticeSteps};
   }
-  /// The place of a sample, and its height; of a raster's sample without it.
+  /// The place of a sample, with the height of a scattered one.
   FitCorner place_of(Point sample) const {
     return points_ != nullptr ? point_at(sample) : FitCorner{sample.x * kLatticeSteps, sample.y * kLatticeSteps, 0};
   }
-  /// The slopes of scattered samples around a place, in units() a kLatticeSteps.
+  /// The slopes of scattered samples around a place, in unit() per kLatticeSteps.
   std::array<double, 2> point_slope(const FitCorner& place) const;
 
-  /// Fields whose errors count; of heights alone one.
+  /// Number of fields whose errors count; 1 for heights only.
   std::size_t field_count() const;
-  /// How their errors are combined.
+  /// The norm that combines their errors.
   Norm norm() const;
-  /// Value of a field at a sample, at a corner: times the field's scale, so that errors are limit_at()'s.
+  /// Scaled value of a field at a sample, so that errors compare with limit_at().
   double value_at(std::size_t field, Point sample) const {
     return norm_ == nullptr ? double{height_at(sample)} : norm_value_at(field, sample);
   }
@@ -197,7 +197,7 @@ class TriangleError {
   Point first_;
   double threshold_, limit_, unit_;
   ErrorRule::Power power_;
-  float per_threshold_, per_square_;  // 0 where squares of float32 come to an end
+  float per_threshold_, per_square_;  // 0 if squares exceed the range of float32
   const float* end_;                  // end of the samples
   const TriangleKernels* kernels_;    // kernels of one threshold
   const NormError* norm_ = nullptr;

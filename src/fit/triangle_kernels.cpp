@@ -1,4 +1,4 @@
-// The twin of the scan of trial triangles, in vectors of four; and which scan is used.
+// The scan of trial triangles in vectors of four, and the choice of the scan.
 #include "fit/triangle_kernels.h"
 
 #include <vector>
@@ -43,7 +43,7 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls sums.add(t, λ) for each four samples; both 0 where none is meant.
+/// Calls sums.add(t, λ) for each four samples; both are 0 where masked.
 template <class Sums>
 Sums ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, Sums sums) {
   TriangleScan scan(task, rows.end);

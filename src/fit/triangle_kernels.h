@@ -1,9 +1,9 @@
 // The scan of a trial triangle against one threshold, in vectors: the inner loops of triangle_error.h.
 //
-// One source is compiled for every instruction set, as that of the engine's scan (geom/scan_kernels.h); the best that
-// the machine has is chosen at run time. All of them, and the twin in vectors of four, give the same bits: an error is
-// the same sequence of separately rounded operations everywhere, and sums have as many parts, whatever the width of a
-// vector, which are added up in the same order.
+// One source is compiled for every instruction set, like the engine's scan (geom/scan_kernels.h); the best one for the
+// machine is chosen at run time. All of them, and the version in vectors of four, return the same bits. An error is the
+// same sequence of separately rounded operations everywhere. Sums have the same number of parts for any vector width,
+// and the parts are added in the same order.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace scarp {
 
 struct TriangleTask;
 
-/// Samples from the first of the window on; nothing is read from `end` on.
+/// Samples from the first of the window to `end`, excluded.
 struct SampleRows {
   const float* first;
   std::ptrdiff_t stride;
@@ -27,17 +27,17 @@ struct SampleRows {
 /// The limits of a triangle.
 struct ErrorLimits {
   float cut;         ///< an error above it breaks the limit
-  float energy;      ///< from here on the triangle is costly
+  float energy;      ///< a triangle is costly from this value on
   float per_square;  ///< 1 / threshold², or 0
 };
 
 struct TriangleSums {
   TriangleError::Verdict::Kind kind = TriangleError::Verdict::Kind::kKeeps;
-  float worst = 0, energy = 0;              ///< kKeeps, or kCostly if all samples were needed to decide; else 0
+  float worst = 0, energy = 0;              ///< kKeeps, or kCostly after a scan of all samples; else 0
   std::int32_t y = 0, first = 0, last = 0;  ///< kBreaks: the samples among which one breaks the limit
 };
 
-/// How the errors of a triangle follow the height of its first corner.
+/// The dependence of a triangle's errors on the height of its first corner.
 struct CornerWeight {
   float slope_x, slope_y;  ///< slopes of the corner's weight, which is 1 at the corner
   float per_threshold;     ///< 1 / threshold, or 0
@@ -51,7 +51,7 @@ struct TriangleKernels {
   const char* name;  ///< name as in ScanKernels
   using Assess = TriangleSums (*)(const TriangleTask& task, const SampleRows& rows, const ErrorLimits& limits);
   using Pull = CornerPull (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight);
-  /// Adds to them.
+  /// Adds to the moments.
   using Moments = void (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
                            TriangleError::Moments& moments);
   /// For squares and for eighth powers, as ErrorRule::Power.
@@ -62,10 +62,10 @@ struct TriangleKernels {
                  TriangleError::Room& room);
 };
 
-/// The best for this machine; SCARP_KERNEL in the environment names another (base/instruction_sets.h).
+/// The best for this machine, or the one that SCARP_KERNEL in the environment names (base/instruction_sets.h).
 const TriangleKernels& triangle_kernels();
 
-/// All that this machine can run, best first; the twin is the last.
+/// All that this machine can run, best first; the last is the version in vectors of four.
 std::span<const TriangleKernels> available_triangle_kernels();
 
 namespace trial {
@@ -75,7 +75,7 @@ std::span<const TriangleKernels> vector_triangle_kernels();
 
 }  // namespace trial
 
-/// Corners that hardly weigh at a sample do not affect it.
+/// Corners with less weight at a sample do not affect it.
 inline constexpr float kLeastShare = 1e-5f;
 
 }  // namespace scarp

@@ -1,6 +1,6 @@
 // The scan of trial triangles in vectors: this file is compiled once for every instruction set, through Highway.
 //
-// Eight samples at a time: one vector, or two of four, the second only where it has samples. No lambdas and no
+// Eight samples are scanned at a time: one vector, or two of four, the second only if it has samples. No lambdas and no
 // functions of the standard library between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for
 // one instruction set and linked for all.
 
@@ -40,7 +40,7 @@ using scarp::HWY_NAMESPACE::whole_parts;
 constexpr std::size_t kWidth = hn::MaxLanes(Wide()), kParts = 8 / kWidth;
 static_assert(kWidth * kParts == 8 && hn::MaxLanes(Four()) == 4);
 
-/// Four of a vector's lanes.
+/// Four lanes of a vector.
 #if HWY_MAX_BYTES > 16
 HWY_INLINE FourVec low_of(WideVec v) { return hn::LowerHalf(Four(), v); }
 HWY_INLINE FourVec high_of(WideVec v) { return hn::UpperHalf(Four(), v); }
@@ -57,7 +57,7 @@ struct EightSums {
   }
 };
 
-/// Adds up eight sums, in an order that is part of the result.
+/// Adds eight sums. The order is part of the result.
 HWY_INLINE float sum_of(const EightSums& sums) {
 #if HWY_MAX_BYTES > 16
   const auto s = hn::Add(low_of(sums.part[0]), high_of(sums.part[0]));
@@ -69,7 +69,7 @@ HWY_INLINE float sum_of(const EightSums& sums) {
   return sum > std::numeric_limits<float>::max() ? std::numeric_limits<float>::max() : sum;
 }
 
-/// Sums in four parts, to each of which the first four of eight samples are added before the others.
+/// Sums in four parts. The first four of eight samples are added before the others.
 struct FourSums {
   FourVec sums;
 
@@ -88,7 +88,7 @@ struct FourSums {
   }
 };
 
-/// Calls take.row(y, first, last) for each row with samples, top down, until it returns false; true if it never did.
+/// Calls take.row(y, first, last) for each row with samples, top down, until it returns false. True if it never did.
 /// The arithmetic is that of each_row(), for several rows at once.
 template <class Take>
 HWY_INLINE bool each_span(const TriangleTask& task, Take& take) {
@@ -144,8 +144,8 @@ struct RowScan {
     }
   }
 
-  /// Calls take.samples<part>(down, offsets, errors, meant) for each vector of samples: the part of eight that it is,
-  /// and which of its samples are meant; errors of nodata are NaN.
+  /// Calls take.samples<part>(down, offsets, errors, meant) for each vector of samples. `part`: its index among the
+  /// vectors of eight samples. `meant`: its mask. Errors of nodata are NaN.
   template <class Take>
   HWY_INLINE void each_vector(std::int32_t y, std::int32_t first, std::int32_t last, Take& take) const {
     const float down = static_cast<float>(y) - base_y;
@@ -245,8 +245,8 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls asks.add(t, λ) for each vector of samples: errors in thresholds, and what a unit's rise of the first corner
-/// adds to them; both 0 where none is meant.
+/// Calls asks.add(t, λ) for each vector of samples: errors in thresholds, and their change per unit rise of the first
+/// corner; both are 0 where masked.
 template <class Asks>
 struct Residuals {
   RowScan scan;

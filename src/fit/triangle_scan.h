@@ -1,5 +1,5 @@
-// The rows of one triangle, eight samples at a time: what assessing a triangle and asking its samples have in common.
-// For the files triangle_*.cpp and norm_scan.h alone.
+// The rows of one triangle, eight samples at a time, for all functions of its errors. Only for the files triangle_*.cpp
+// and norm_scan.h.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-// Rows are scanned eight samples at a time, as two vectors of four: the width that every machine has. The order of the
+// Rows are scanned eight samples at a time, as two vectors of four, a width that every machine has. The order of the
 // sums is part of the result.
 using Floats = float __attribute__((vector_size(16)));
 using Masks = std::int32_t __attribute__((vector_size(16)));
@@ -32,17 +32,17 @@ inline bool any(Masks mask) {
   return (words[0] | words[1]) != 0;
 }
 
-/// Four values; 0 where they are not meant.
+/// Four values; 0 where masked.
 inline Floats kept(Floats values, Masks meant) {
   return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant);
 }
-/// Four errors' magnitudes; 0 where they are not meant, and where the sample is nodata: NaN is not equal to itself.
+/// Magnitudes of four errors; 0 where masked or nodata: NaN is not equal to itself.
 inline Floats magnitudes(Floats errors, Masks meant) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
   return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
 }
 
-/// Eight samples of a row from `samples` on, or their bounds.
+/// Eight samples of a row, or their bounds, from `samples` on.
 struct RowSamples {
   std::array<float, kLanes> copy;
   const float* from;
@@ -54,11 +54,11 @@ struct RowSamples {
   }
 };
 
-/// The crossing of an edge with a row is off by less than 2⁻³⁵, and, where it is no whole number, at least 2⁻³² away
-/// from one: a multiple of 1/(256·rows) for less than kMaxFitSteps rows of the lattice.
+/// The computed crossing of an edge with a row has an error of less than 2⁻³⁵. The exact crossing is an integer or at
+/// least 2⁻³² away from one: it is a multiple of 1/(256·rows) for fewer than kMaxFitSteps rows of the lattice.
 inline constexpr double kOnSample = 0x1p-34;
 
-/// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
+/// A triangle ready to be scanned: corners from top to bottom in samples, and its plane.
 struct TriangleTask {
   struct Place {
     double x, y;
@@ -67,15 +67,15 @@ struct TriangleTask {
   Place top, middle, bottom;
   float base_x, base_y;
   ScanPlane plane;
-  float doubt, certain;  // computed errors up to `doubt` keep the threshold, above `certain` break it
-  float cut;             // above it they break the limit
+  float doubt, certain;  // computed errors up to `doubt` are within the threshold, those above `certain` break it
+  float cut;             // computed errors above it break the limit
 
   [[gnu::always_inline]] TriangleTask(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold,
                                       double limit)
       : corners{a, b, c} {
     constexpr double kStep = 1.0 / kLatticeSteps;
     const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
-    // By comparisons alone, as the branches of swaps are unpredictable. Two of the eight outcomes cannot be.
+    // Without branches, since those of swaps are unpredictable. Two of the eight outcomes are impossible.
     constexpr std::array<std::array<std::uint8_t, 3>, 8> kOrders{
         {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {2, 1, 0}}};
     const std::array<double, 3> xs{pa.x, pb.x, pc.x}, ys{pa.y, pb.y, pc.y};
@@ -100,7 +100,7 @@ struct TriangleTask {
   }
 };
 
-/// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
+/// Calls row(y, first, last) for each row with samples, top down, until it returns false. True if it never did.
 template <class Row>
 bool each_row(const TriangleTask& task, const Row& row) {
   const TriangleTask::Place top = task.top, middle = task.middle, bottom = task.bottom;
@@ -119,7 +119,7 @@ bool each_row(const TriangleTask& task, const Row& row) {
 
 inline constexpr int kRowsPerLook = 4;  ///< rows between checks of the energy
 
-/// A scan on its way through the rows of a triangle.
+/// The state of a scan through the rows of a triangle.
 struct TriangleScan {
   const TriangleTask& task;
   const float* end;  // end of the samples
@@ -129,8 +129,9 @@ struct TriangleScan {
   TriangleScan(const TriangleTask& of, const float* samples_end)
       : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
 
-  /// Calls visit(x, left, low, low_meant, high, high_meant) for each eight samples: the first's place, the first four's
-  /// offset from the base, errors, and which are meant. `samples`: the row, from its first sample in the window.
+  /// Calls visit(x, left, low, low_meant, high, high_meant) for each group of eight samples. `x`: column of the first.
+  /// `left`: offsets of the first four from the base. `low`, `high`: errors, with their masks. `samples`: the row, from
+  /// its first sample in the window.
   template <class Visit>
   void each_eight(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last, const Visit& visit) {
     const Floats row = all(task.row_height(y));
@@ -149,7 +150,7 @@ struct TriangleScan {
   bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
 };
 
-/// Eight samples' bounds; infinite where none is meant.
+/// Bounds of eight samples; infinite where masked.
 struct EightBounds {
   Floats low, high;
 
@@ -161,11 +162,11 @@ struct EightBounds {
   }
 };
 
-/// Bounds up to this have no energy, whatever the triangle; and in this one.
+/// Bounds up to this have no energy; least_bound() is the limit for one triangle.
 inline constexpr float kLeastBound = 0x1p-60f;
 inline float least_bound(const TriangleTask& task) { return std::max(kLeastBound, task.plane.guard); }
 
-/// Values counted in bounds; 0 where they are too small for that.
+/// Values divided by bounds; 0 where the bounds are too small.
 inline Floats per_bound(Floats values, Floats bounds, Floats least) { return kept(values / bounds, bounds > least); }
 
 }  // namespace scarp

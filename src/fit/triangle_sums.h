@@ -1,5 +1,5 @@
-// The sums over the samples of a trial triangle, in vectors of four. The order of the sums is part of the result. For
-// triangle_error.cpp, triangle_pull.cpp and triangle_kernels.cpp alone.
+// The sums over the samples of a trial triangle, in vectors of four. The order of the sums is part of the result. Only
+// for triangle_error.cpp, triangle_pull.cpp and triangle_kernels.cpp.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace scarp {
 
-/// Adds up lanes.
+/// Sum of the lanes.
 inline float sum_of(Floats low, Floats high) {
   const Floats s = low + high;
   return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
@@ -28,7 +28,7 @@ struct Largest {
   float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
 };
 
-/// And the sum of squares.
+/// Also the sum of squares.
 struct Squares : Largest {
   Floats low_sum{}, high_sum{};
 
@@ -40,7 +40,7 @@ struct Squares : Largest {
   float energy(float per_square) const { return sum_of(low_sum, high_sum) * per_square; }
 };
 
-/// Or of eighth powers, of errors in thresholds.
+/// Also the sum of eighth powers of errors in thresholds.
 struct EighthPowers : Largest {
   Floats low_sum{}, high_sum{};
 
@@ -54,7 +54,7 @@ struct EighthPowers : Largest {
   float energy(float) const { return sum_of(low_sum, high_sum); }
 };
 
-// For each four samples: t, the error in thresholds, and λ, what a unit's rise of the corner adds to it.
+// For each four samples: t, the error in thresholds, and λ, its change per unit rise of the corner.
 
 struct SquarePull {
   Floats stiffness{}, push{};

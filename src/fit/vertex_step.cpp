@@ -11,14 +11,14 @@ namespace scarp {
 
 namespace {
 
-/// Share of the energy before that must be gained.
+/// Least gain, as a share of the energy before.
 constexpr float kStepGain = 2e-3f;
-/// Lengths of a step: times Newton's, but at most this share of the mean edge.
+/// Lengths of a step, relative to Newton's step, and limited to a share of the mean edge.
 struct Length {
   double times, reach;
 };
 constexpr std::array<Length, 3> kOfSquares{{{1.5, 0.4}, {0.45, 0.12}, {0.12, 0.032}}};
-/// If the largest errors lead, most of the longest steps fail.
+/// With eighth powers, most of the longest steps fail.
 constexpr std::array<Length, 2> kFree{{{0.45, 0.12}, {0.12, 0.032}}}, kOnSamples{{{1, 0.3}, {0.3, 0.1}}};
 
 std::span<const Length> lengths_of(ErrorRule::Power power, bool is_free) {
@@ -28,13 +28,13 @@ std::span<const Length> lengths_of(ErrorRule::Power power, bool is_free) {
 
 constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
-/// Allowed cost of a shake, times the energy before, and how far it goes at most, times the mean edge.
+/// Limits of a shake: energy relative to before, and distance relative to the mean edge.
 constexpr float kShakeCost = 3;
 constexpr double kShakeReach = 0.05;
 
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
-/// Between samples, by bilinear interpolation; NaN next to nodata.
+/// Bilinear interpolation between samples; NaN next to nodata.
 float terrain_height(const TriangleError& error, const Patch::Window& window, const FitCorner& place) {
   const Point p = sample_at(place);
   const Point q{std::min(p.x + 1, window.cols - 1), std::min(p.y + 1, window.rows - 1)};
@@ -45,7 +45,7 @@ float terrain_height(const TriangleError& error, const Patch::Window& window, co
   return above * (1 - y) + below * y;
 }
 
-/// The nearest place in the direction of a step that is too short for one.
+/// The smallest lattice step in the direction of a step that rounds to none.
 Point unit_step(double x, double y) {
   const std::int32_t right = x > 0 ? 1 : -1, down = y > 0 ? 1 : -1;
   constexpr double kDiagonal = 0.4;
@@ -55,7 +55,7 @@ Point unit_step(double x, double y) {
 
 }  // namespace
 
-/// Central differences, in units of the errors a sample; 0 where samples are nodata or beyond the window.
+/// Central differences, in error units per sample; 0 where samples are nodata or beyond the window.
 VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const {
   if (error.has_points()) {
     const auto [x, y] = error.point_slope(at);
@@ -74,7 +74,7 @@ VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::si
   return {slope({p.x - 1, p.y}, {p.x + 1, p.y}), slope({p.x, p.y - 1}, {p.x, p.y + 1})};
 }
 
-/// In samples; along the side for a vertex on one.
+/// In samples. A vertex on a side moves along it.
 VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) {
   terrain_.clear();
   for (std::size_t k = 0; k < error.field_count(); ++k)
@@ -102,7 +102,7 @@ double VertexStep::mean_edge(const FitCorner& at) const {
   return sum / static_cast<double>(star_.ring.size());
 }
 
-/// Finds the star of a vertex that may move.
+/// Finds the star of a vertex; false if it must not move.
 bool VertexStep::take_up(const TriangleError& error, Patch::Id v) {
   if (patch_.is_locked(v)) return false;
   patch_.find_star(v, star_);
@@ -175,7 +175,7 @@ bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t di
   return take(error, v, offer_at(error, from, place, limit), limit);
 }
 
-/// The place that a step leads to, or the scattered sample next to it, if a side allows that.
+/// The target of a step, or the nearest scattered sample if it is on the vertex' side.
 FitCorner VertexStep::shifted(const TriangleError& error, const FitCorner& from, Point by) const {
   const FitCorner to{from.x + by.x * unit(), from.y + by.y * unit(), 0};
   if (is_free() || !error.has_points()) return to;
@@ -184,7 +184,7 @@ FitCorner VertexStep::shifted(const TriangleError& error, const FitCorner& from,
   return is_on_side ? sample : from;
 }
 
-/// For a step of the vertex.
+/// The floor of shapes for a step of the vertex.
 TriangleShape VertexStep::shape_floor(const FitCorner& from) const {
   TriangleShape floor = rules_.shape.least();
   if (!rules_.shape.is_on()) return floor;
@@ -196,7 +196,7 @@ bool VertexStep::fits(const FitCorner& place, const TriangleShape& floor) const 
   return fan().fits(place, rules_.shape, floor);
 }
 
-/// A height to begin with: the terrain's rise from the vertex on, or with scattered samples that of its triangle.
+/// An initial height: adds the rise of the terrain from the vertex or, with scattered samples, of the vertex' triangle.
 float VertexStep::guess_height(const TriangleError& error, const FitCorner& from, const FitCorner& place) const {
   if (!error.has_points()) {
     const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
@@ -212,7 +212,7 @@ float VertexStep::guess_height(const TriangleError& error, const FitCorner& from
   return from.z;
 }
 
-/// Gives the place its height. Where that mends the star its energy counts as below the limit.
+/// Sets the place's height. If it brings the star within the bound, its energy counts as below the limit.
 VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorner& from, FitCorner place,
                                        float limit) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
@@ -228,7 +228,7 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   return {raised.place, mends ? std::min(energy, limit * (1 - kStepGain)) : energy, mends};
 }
 
-/// Moves v there if that is better than the limit, and the rule of `error` allows it.
+/// Moves v there if the energy is below the limit and the rule of `error` accepts it.
 bool VertexStep::take(const TriangleError& error, Patch::Id v, const Offer& offer, float limit) {
   if (!(offer.energy < limit)) return false;
   if (offer.mends) limit = std::numeric_limits<float>::infinity();

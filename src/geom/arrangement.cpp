@@ -155,8 +155,8 @@ Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std:
   for (const LinePiece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
   const Courses courses = merge_overlaps(segments), rigid_courses = merge_overlaps(rigid);
   const HotPoints hot = find_hot_points(segments, rigid, courses, rigid_courses, result.is_exact);
-  // A course passes the same points as its segments: their ends are among its points, and between these both meet the
-  // same squares.
+  // A course passes the same points as its segments. Their ends are among its points; between the ends, the course and
+  // the segments meet the same squares.
   HotPoints::Passes passes = hot.walk(courses.segments, false);
 
   result.stretches.reserve(cut.pieces.size());

@@ -1,15 +1,15 @@
-// Arrangements: lines prepared for a triangulation, split at their crossings by vertices on the lattice.
+// Arrangements prepare lines for a triangulation: they split lines at their crossings by vertices on the lattice.
 //
 // Crossings of lattice segments are fractions. Rounding them bends the segments, and bent segments may cross again.
 // Snap rounding (Hobby 1999; Guibas and Marimont 1998) solves this. A lattice point is hot if a segment ends there or a
 // crossing is rounded to it. Every segment is routed through all hot points whose unit squares (half open, centred on
-// them) it meets. Then nothing crosses, whatever the input. Here all decisions are made in integers.
+// them) it meets. Then no segments cross, for any input. Here all decisions use integers.
 //
-// Two things are new here. First, rigid segments run along the axes or the diagonals, so they meet only squares of
-// lattice points on themselves, except that a falling diagonal (x + y constant) touches corners of others. A corner on
-// such a segment is moved to the square on the segment. Squares stay convex and stay a partition, which is all that the
-// proof needs, and rigid segments never bend. The proof has one gap: a hot point exactly on a bent piece between two
-// such corners splits the piece there. Second, where all crossings are lattice points nothing is rounded: lines that
+// This implementation adds two things. First, rigid segments never bend. They run along the axes or the diagonals, so
+// they meet only squares of lattice points on themselves, except that a falling diagonal (x + y constant) touches
+// corners of others. A corner on such a segment is assigned to the square on the segment. Squares remain convex and a
+// partition, which is all that the proof needs. The proof has one gap: a hot point exactly on a bent piece between two
+// such corners splits the piece there. Second, if all crossings are lattice points, nothing is rounded: lines that
 // cross only in vertices are returned unchanged.
 #pragma once
 
@@ -37,7 +37,7 @@ struct Polylines {
 };
 
 struct Arrangement {
-  /// Between two vertices, the lower number first.
+  /// An edge between two vertices, the lower number first.
   struct Edge {
     std::uint32_t a, b;
     bool is_rigid;  ///< part of a rigid segment
@@ -47,25 +47,26 @@ struct Arrangement {
   /// A vertex on a line.
   struct Stop {
     std::uint32_t vertex;
-    std::uint32_t segment;  ///< segment of the line: from its points[segment] to points[segment + 1]
-    double fraction;        ///< fraction of that segment, 0 … 1; (segment, fraction) never decreases along a chain
+    std::uint32_t segment;  ///< segment of the line, from points[segment] to points[segment + 1]
+    double fraction;        ///< position in that segment, 0 … 1; (segment, fraction) never decreases along a chain
   };
-  /// One segment's part of a chain: passes[first] … passes[last], in reverse order where last < first.
+  /// One segment's part of a chain: passes[first] … passes[last], in reverse order if last < first.
   struct Stretch {
     std::uint32_t segment;  ///< segment of the line
     std::uint32_t first, last;
     double begin, end;  ///< ends of the segment within the rectangle, as fractions of the whole
   };
-  /// The result for a line, or for one part of it in the rectangle: at least two vertices, successive ones distinct.
+  /// The result for a line, or for one part of the line in the rectangle: at least two vertices; successive ones are
+  /// distinct.
   struct Chain {
     std::uint32_t line;
     std::uint32_t begin, end;  ///< stretches[begin] … stretches[end − 1]; each begins where the previous one ends
   };
 
-  std::vector<Point> vertices;  ///< in raster order, without duplicates, each the end of an edge
+  std::vector<Point> vertices;  ///< in raster order, without duplicates; each is the end of an edge
   std::vector<Edge> edges;      ///< by (a, b), without duplicates
-  /// The vertices along each union of overlapping segments, one union after another. Vertices shared by many lines are
-  /// stored once.
+  /// The vertices along each union of overlapping segments, union by union. Vertices shared by many lines are stored
+  /// once.
   std::vector<std::uint32_t> passes;
   std::vector<Stretch> stretches;
   std::vector<Chain> chains;  ///< by line, then along the line
@@ -97,16 +98,15 @@ struct Arrangement {
 /// (1) Two edges share at most a common end; a vertex on an edge is its end. (2) Every two successive stops of a chain
 /// are an edge; each edge is part of a line or of a rigid segment. (3) The edges with is_rigid cover exactly the rigid
 /// segments. (4) A line's vertex in the rectangle is a stop at its own place. All other stops, and so all points of a
-/// chain, lie within 1/2 of their segment in each coordinate, within 1 if the rectangle clips it. (5) Arranging the
-/// edges with the same rigid segments changes nothing. (6) Vertices and edges do not depend on the order or the
-/// direction of lines.
+/// chain, lie within 1/2 of their segment in each coordinate, or within 1 if the rectangle clips the segment. (5)
+/// Arranging the edges again with the same rigid segments changes nothing. (6) Vertices and edges do not depend on the
+/// order or the direction of lines.
 ///
-/// Chains of one vertex are omitted: lines of no extent, or lines that touch the rectangle in a point.
-/// REQUIRES: 0 < width, height <= kMaxCoordinate; rigid segments lie in the rectangle, are not points, and run along
-/// axes or diagonals between points of even coordinates. Lines may be arbitrary.
-/// Cost: O((n + k) log n) for n segments and k crossings that are not crowded; two to three seconds for a million
-/// segments (bench/speed/speed_lines.cpp). n segments that overlap on one line cost no more, as do n traversals of one
-/// line.
+/// Chains of one vertex are omitted: lines without extent, or lines that touch the rectangle in a point. REQUIRES: 0 <
+/// width, height <= kMaxCoordinate; rigid segments lie in the rectangle, are not points, and run along axes or
+/// diagonals between points of even coordinates. Lines may be arbitrary. Cost: O((n + k) log n) for n segments and k
+/// crossings that are not crowded; two to three seconds for a million segments (bench/speed/speed_lines.cpp). n
+/// segments that overlap on one line cost no more, as do n traversals of one line.
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height);
 
 }  // namespace scarp

@@ -15,7 +15,7 @@ namespace {
 struct OnLine {
   Point direction;
   std::int64_t offset;
-  Segment segment;  ///< from before to
+  Segment segment;  ///< `from` precedes `to`
 };
 
 OnLine on_line(Segment s) {
@@ -27,7 +27,7 @@ OnLine on_line(Segment s) {
 
 bool same_line(const OnLine& a, const OnLine& b) { return a.direction == b.direction && a.offset == b.offset; }
 
-/// A hash: equal for segments of one line, rarely for others.
+/// A hash that is equal for segments of one line, and rarely for others.
 std::uint32_t mark_of(const OnLine& line) {
   std::uint64_t bits =
       std::uint64_t{static_cast<std::uint32_t>(line.direction.x)} << 32 | static_cast<std::uint32_t>(line.direction.y);

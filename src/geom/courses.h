@@ -1,4 +1,4 @@
-// Overlapping segments merged into courses, so that a stretch shared by a thousand of them is examined once.
+// Merges overlapping segments into courses, so that a stretch shared by a thousand segments is examined once.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace scarp {
 
 /// The unions of collinear segments that share more than a point.
 struct Courses {
-  std::vector<Segment> segments;  ///< `from` before `to` in raster order; in the order of their first segments
+  std::vector<Segment> segments;  ///< `from` precedes `to` in raster order; sorted by their first segments
   std::vector<std::uint32_t> of;  ///< for each segment given: the course that contains it
 };
 

@@ -1,4 +1,4 @@
-// |plane − sample| against a threshold, exactly.
+// Exact comparison of |plane − sample| with a threshold.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace scarp {
 /// All values are dyadic rationals: scaled to integers, the barycentric sum
 ///   |w0·z0 + w1·z1 + w2·z2 − A·h| > threshold · A,   w0 + w1 + w2 = A = orient(corners)
 /// fits 128 bits for every combination of float32 heights met in practice. Double heights fit on lattices of up to some
-/// 2^30 cells in a triangle. Otherwise (heights of wildly different magnitude, huge triangles) the answer is the safe
-/// one: true, unless p is a corner.
-/// REQUIRES: p in the closed triangle, orient(corners) > 0, threshold >= 0, all values finite.
+/// 2^30 cells in a triangle. Otherwise (heights of very different magnitudes, huge triangles) the result is the safe
+/// one: true, unless p is a corner. REQUIRES: p in the closed triangle, orient(corners) > 0, threshold >= 0, all values
+/// finite.
 bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<double, 3>& heights, Point p, double sample,
                      double threshold);
 inline bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p,
@@ -22,9 +22,9 @@ inline bool exceeds_exactly(const std::array<Point, 3>& corners, const std::arra
                          threshold);
 }
 
-/// The same on a line, as real numbers: true if the point k of n steps from a height `from` to a height `to` differs
-/// from `sample` by more than `threshold`: |(n − k)·from + k·to − n·sample| > threshold · n. Fits 128 bits for all
-/// float32 heights whose magnitudes span less than some 2^90; otherwise true. REQUIRES: 0 < k < n <= 2^30.
+/// The same on a line of n steps from height `from` to height `to`: true if the height after k steps differs from
+/// `sample` by more than `threshold`, as real numbers: |(n − k)·from + k·to − n·sample| > threshold · n. Fits 128 bits
+/// for all float32 heights whose magnitudes span less than some 2^90; otherwise true. REQUIRES: 0 < k < n <= 2^30.
 bool exceeds_exactly_between(float from, float to, std::int64_t k, std::int64_t n, float sample, double threshold);
 
 }  // namespace scarp

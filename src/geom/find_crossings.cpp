@@ -1,6 +1,6 @@
-// Pairs of segments are found by a tree of boxes. Long segments are divided into pieces of the mean length, so that
-// boxes fit closely; there are at most twice as many pieces as segments. Neighbours in the tree share a query, unless
-// it finds too many boxes.
+// A tree of boxes finds pairs of segments. Long segments are divided into pieces of the mean length, so that boxes fit
+// closely; there are at most twice as many pieces as segments. Neighbours in the tree share a query, unless it finds
+// too many boxes.
 #include <algorithm>
 #include <cstdlib>
 
@@ -98,7 +98,7 @@ class Finder {
  private:
   bool is_rigid_antidiagonal(std::uint32_t k) const { return k >= first_rigid_ && is_antidiagonal(segments_[k]); }
 
-  /// Thousands of lines through one point give millions of pairs.
+  /// Thousands of lines through one point produce millions of pairs.
   void tidy() {
     sort_uniquely(found_.points);
     next_tidying_ = std::max(next_tidying_, 2 * found_.points.size());

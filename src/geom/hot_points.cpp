@@ -23,7 +23,7 @@ Box box_of(const Segment& s) {
           std::max(s.from.y, s.to.y)};
 }
 
-/// A fast test whether a segment may meet the square of any lattice point in a box.
+/// A fast test for segments that may meet the square of a lattice point in a box.
 class Reach {
  public:
   explicit Reach(const Segment& s) : from_(s.from), dx_(s.to.x - s.from.x), dy_(s.to.y - s.from.y), box_(box_of(s)) {}
@@ -79,7 +79,7 @@ bool HotPoints::lies_on_falling_rigid(Point p) const {
 /// After doubling, a square reaches from −1 to 1 around its point. The segment's line passes that point at a distance
 /// of 2·|cross| / |d|, and the square's extent across the line is (|dx| + |dy|) / |d|. Coordinates of ends are even and
 /// those of borders odd, so a segment that meets a square but not its interior touches a corner. Reach ensures that the
-/// segment does not end before the square: the point lies in its box.
+/// point lies in the segment's box, so the segment does not end before the square.
 HotPoints::Meets HotPoints::meets(const Segment& segment, std::uint32_t point) const {
   const Point p = points_[point];
   const std::int64_t dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;

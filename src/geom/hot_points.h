@@ -1,4 +1,4 @@
-// The hot points of snap rounding, and which of them each segment passes; see arrangement.h.
+// The hot points of snap rounding, and those on each segment's way; see arrangement.h.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace scarp {
 
 class HotPoints {
  public:
-  /// `points` in raster order, without duplicates. With is_exact a segment passes the points on it, otherwise those
-  /// whose squares it meets. REQUIRES: the points include the ends of all segments passed to walk().
+  /// `points` are in raster order, without duplicates. With is_exact, a segment passes the points on it; otherwise the
+  /// points whose squares it meets. REQUIRES: the points include the ends of all segments passed to walk().
   HotPoints(std::vector<Point> points, std::span<const Segment> rigid, bool is_exact);
 
   const std::vector<Point>& points() const { return points_; }
@@ -24,8 +24,8 @@ class HotPoints {
     std::vector<std::uint32_t> points;   ///< numbers of points
     std::vector<std::size_t> begins{0};  ///< segment k passes points[begins[k]] … points[begins[k + 1] − 1]
   };
-  /// Both ends included, in order. Rigid segments pass the points on them. Cost: O(log n) per segment plus its points;
-  /// less where successive segments are close to each other.
+  /// The points that each segment passes, in order, with both ends. Rigid segments pass the points on them. Cost: O(log
+  /// n) per segment plus its points; less if successive segments are close to each other.
   Passes walk(std::span<const Segment> segments, bool are_rigid) const;
 
  private:
@@ -33,7 +33,7 @@ class HotPoints {
   struct Candidate {
     std::int64_t along;
     std::uint32_t point;
-    bool is_passed;  ///< otherwise the segment touches a corner that belongs to another square
+    bool is_passed;  ///< false: the segment touches a corner that belongs to another square
   };
   Meets meets(const Segment& segment, std::uint32_t point) const;
   void add_candidate(const Segment& segment, bool only_on, std::uint32_t point,

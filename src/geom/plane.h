@@ -1,9 +1,9 @@
 // The plane of a triangle over the lattice, and the precision of its arithmetic.
 //
-// Every algorithm of the engine, textbook or fast, measures a sample by height_at(). It first puts the corners into
-// raster order, so the result depends only on the triangle and the sample, not on ids or the order of the scan. Doubles
-// without contraction: each operation rounds once. guard() bounds the sum of these roundings, so a comparison with a
-// threshold is certain outside threshold ± guard. Inside, exact_error.h decides.
+// Every algorithm of the engine, textbook or fast, measures a sample by height_at(). The plane's corners are in raster
+// order, so the result depends only on the triangle and the sample, not on ids or the order of the scan. Doubles are
+// used without contraction: each operation rounds once. `guard` bounds the sum of these roundings, so a comparison with
+// a threshold is certain outside threshold ± guard. Inside, exact_error.h decides.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Plane {
   Point base;                       ///< first corner in raster order
   double height = 0;                ///< at base
   double slope_x = 0, slope_y = 0;  ///< per sample
-  double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
+  double guard = 0;  ///< bound of the rounding error of height_at(p) − sample, for p in the triangle; 0 if level, where
                      ///< only the subtraction rounds
 
   /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
@@ -59,7 +59,7 @@ struct Plane {
   double height_at(Point p) const { return row_height(p.y) + slope_x * static_cast<double>(p.x - base.x); }
 };
 
-/// |n − m|² of the planes' unit normals; grows with the angle between them.
+/// |n − m|² of the planes' unit normals n and m; grows with the angle between them.
 inline double bend_of(const Plane& a, const Plane& b) {
   const double la = std::sqrt(1 + a.slope_x * a.slope_x + a.slope_y * a.slope_y);
   const double lb = std::sqrt(1 + b.slope_x * b.slope_x + b.slope_y * b.slope_y);

@@ -11,8 +11,8 @@ namespace scarp {
 
 namespace {
 
-/// Sweeps a plane from its first row to its last, along each row from left to right. It maintains the crossed edges
-/// from left to right. The positive side of an edge is its left.
+/// Sweeps a plane from its first row to its last, along each row from left to right. The sweep maintains the crossed
+/// edges from left to right. The positive side of an edge is its left.
 class Sweep {
  public:
   Sweep(std::span<const Point> vertices, std::span<const GraphEdge> edges)

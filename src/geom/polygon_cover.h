@@ -1,8 +1,9 @@
 // The number of polygons covering each side of an edge.
 //
-// Polygons are rings of a planar graph. Nothing crosses (arrangement.h), but rings may run along each other, and over
-// themselves. Within one polygon rings count even-odd, so only the edges that it passes an odd number of times count. A
-// sweep over these alone finds the side of each on which the polygon lies; a sweep over all edges sums the results.
+// Polygons are rings of a planar graph. Edges do not cross (arrangement.h), but rings may overlap each other and
+// themselves. Each polygon follows the even-odd rule, so only the edges that it passes an odd number of times count. A
+// sweep over these edges finds the side of each on which the polygon lies. A second sweep, over all edges, sums the
+// results.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct PolygonEdge {
   friend bool operator==(const PolygonEdge&, const PolygonEdge&) = default;
 };
 
-/// The numbers of polygons next to an edge: on its positive side, where orient(edge[0], edge[1], p) > 0, and on the
+/// The numbers of polygons on both sides of an edge: the positive side, where orient(edge[0], edge[1], p) > 0, and the
 /// other.
 struct EdgeCover {
   std::int32_t positive = 0, negative = 0;

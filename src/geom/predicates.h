@@ -1,7 +1,7 @@
 // The in-circle predicate, evaluated exactly on the integer lattice (orient() is in base/point.h).
 //
-// Sizes: in_circle() has degree 4. With all differences at most d its terms add up to less than 12 d⁴, which is below
-// 2⁶³ for d <= 29,609; beyond, 128-bit integers are used (12·2¹²⁰ < 2¹²⁷).
+// Sizes: in_circle() has degree 4. If all differences are at most d, its terms add up to less than 12 d⁴, which is
+// below 2⁶³ for d <= 29,609; for larger d, 128-bit integers are used (12·2¹²⁰ < 2¹²⁷).
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace detail {
 struct Crossing {
   std::int64_t floor, ceil;
 
-  /// REQUIRES: a.y < b.y, row·steps between them.
+  /// REQUIRES: a.y < b.y; row·steps is between them.
   Crossing(Point a, Point b, std::int64_t row, std::int32_t steps) {
     const std::int64_t rows = std::int64_t{b.y} - a.y, whole = rows * steps;
     const std::int64_t x = a.x * rows + (row * steps - a.y) * (std::int64_t{b.x} - a.x);  // at least 0, below 2⁶⁰

@@ -1,8 +1,8 @@
 // The lattice points of a closed triangle, row by row.
 //
 // Each edge is followed in integers: its crossing with a row is a quotient and a remainder that advance by a fixed step
-// (Bresenham's idea with floor and ceiling). So a point on an edge always belongs to both triangles. Nothing is
-// rounded, and no row or column is skipped. Rounded spans, as in Scape, lose samples.
+// (Bresenham's idea with floor and ceiling). Nothing is rounded, so a point on an edge always belongs to both
+// triangles, and no row or column is skipped. Rounded spans, as in Scape, lose samples.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace scarp {
 
 namespace detail {
 
-constexpr std::int32_t kRowsWorthSkipping = 32;  // a division costs as much as so many rows
+constexpr std::int32_t kRowsWorthSkipping = 32;  // a division costs as much time as this many rows
 
-/// x of an edge on consecutive rows, as floor(x) and whether the remainder is zero.
+/// x of an edge on consecutive rows, as floor(x) and a flag for integers.
 class EdgeWalker {
  public:
   /// REQUIRES: from.y < to.y.
@@ -33,8 +33,8 @@ class EdgeWalker {
   }
   std::int64_t floor() const { return x_; }
   std::int64_t ceil() const { return x_ + (remainder_ != 0); }
-  /// Rows until the edge reaches the next whole column, on its right or left; more than any raster has if it runs the
-  /// other way. REQUIRES: the edge is between two columns.
+  /// Number of rows until the edge reaches the next integer column on its right or left; more than any raster has if
+  /// the edge runs the other way. REQUIRES: the edge is between two columns.
   std::int64_t rows_to_reach(bool is_right) const {
     constexpr std::int64_t kNever = std::int64_t{1} << 40;
     if (is_right) {
@@ -82,7 +82,7 @@ void scan_rows(std::array<Point, 3> corners, Row&& row) {
       if (first <= last) {
         row(y, static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
       } else if (end - y > detail::kRowsWorthSkipping) {
-        // Both edges are between the same two columns, as in most rows of a sliver.
+        // Here both edges are between the same two columns, as in most rows of a sliver.
         const std::int64_t rows =
             std::min({left.rows_to_reach(false), right.rows_to_reach(true), std::int64_t{end} - y});
         long_edge.skip_rows(rows);

@@ -1,10 +1,10 @@
 // Branch and bound over the 8 × 8 blocks. Compiled once for every instruction set (scan_kernels_vector.cpp).
 //
-// The computed distance of a block's samples from the plane. With f the computed plane at the block's centre and M =
-// |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box, a sample's exact distance (of the float32 slopes) is at
-// most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most B(1 + 2u) +
-// 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So a margin of 2⁻²⁰M on the bound
-// and of 2⁻²⁰ on its limit never drops a relevant sample; 2⁻¹⁴⁰ covers subnormal numbers.
+// Bounds of the computed distance of a block's samples from the plane. f is the computed plane at the block's centre,
+// and M = |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box. A sample's exact distance (with the float32
+// slopes) is at most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most
+// B(1 + 2u) + 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So with margins of 2⁻²⁰M
+// on the bound and 2⁻²⁰ on its limit, no relevant sample is dropped; 2⁻¹⁴⁰ covers subnormal numbers.
 
 // An include guard like Highway's: included once for every instruction set.
 #if defined(SCARP_SCAN_KERNELS_BLOCKS) == defined(HWY_TARGET_TOGGLE)
@@ -113,8 +113,8 @@ HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t 
   return scanned;
 }
 
-/// Order: hints, the best block of all, the best of each row, the rest. Each step reduces the work of the next. The
-/// order does not depend on the number of lanes.
+/// The order of the search: hints, the best block of all, the best block of each row, the rest. Each step reduces the
+/// work of the next. The order does not depend on the number of lanes.
 HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& task,
                                        const std::array<TilePoint, 3>& corners, std::span<const TilePoint> hints,
                                        ScanBest& best) {

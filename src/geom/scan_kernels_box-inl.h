@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using detail::ScanBest;
 using detail::ScanTask;
 
-/// A lane's error must exceed this to become a candidate: equal errors matter once there is a hit.
+/// The value that a lane's error must exceed to become a candidate: equal errors matter after a hit.
 HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
   if (!(best.error > task.floor)) return task.floor;
   return bit_cast<float>(bit_cast<std::uint32_t>(best.error) - 1);
@@ -79,7 +79,7 @@ HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std:
     for (int unrolled = 0; unrolled < 4; ++unrolled) {
       const auto surface = hn::Add(along, hn::Mul(slope_y, dy));
       const auto error = hn::Sub(surface, hn::Sub(hn::LoadU(d, samples), base));
-      // Outside the triangle a weight is negative, hence also the error: the sample is no candidate.
+      // Outside the triangle a weight is negative. This makes the error negative, so the sample is no candidate.
       const auto weights = hn::BitCast(d, hn::Or(hn::Or(w_0, w_1), w_2));
       take_larger(hn::Or(hn::AndNot(sign, error), hn::And(sign, weights)), dy, most, most_dy);
       samples += tile.stride;
@@ -140,14 +140,14 @@ struct StripRows {
       bottom = hn::IfThenElse(meets, larger_of(bottom, larger_of(y_from, y_to)), bottom);
     }
     // Slant, product and sum lose at most 2⁻¹² each, since an edge spans at most 2¹² rows. The margin exceeds four
-    // times their sum, which leaves room for its own roundings and those of the conversion.
+    // times their sum, which also covers its own roundings and those of the conversion.
     const auto margin = hn::Set(d, 0x1p-8f), one = hn::Set(d, 1.0f);
     hn::StoreU(hn::Max(hn::Set(di, task.top), hn::ConvertTo(di, hn::Add(hn::Sub(top, margin), one))), di, first);
     hn::StoreU(hn::Min(hn::Set(di, task.bottom), hn::ConvertTo(di, hn::Add(bottom, margin))), di, last);
   }
 };
 
-/// Strip by strip, each only as long as the triangle in it.
+/// Scans strip by strip, each only as long as the triangle in it.
 HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const std::array<TilePoint, 3>& corners,
                               ScanBest& best) {
   const hn::CappedTag<float, 16> d;

@@ -36,7 +36,7 @@ Span BlockColumns::of(std::int32_t block_row) const {
       right = std::max(right, static_cast<double>(to.x));
     }
   }
-  // One sample more on either side covers the rounding.
+  // One more sample on each side covers the rounding.
   return {std::max(task_.left, static_cast<std::int32_t>(left) - 1) / kBlock,
           std::min(task_.right, static_cast<std::int32_t>(right) + 1) / kBlock};
 }

@@ -16,7 +16,7 @@ struct ScanBest {
   float error = 0;
   TilePoint at = 0;
 
-  /// Among equal errors the first in raster order wins; NaN never does. The floor has no point, so it wins over an
+  /// Among equal errors the first in raster order wins; NaN never wins. The floor has no point, so it wins over an
   /// equal error.
   void offer(float e, TilePoint p) {
     if (e > error || (e == error && p < at)) *this = {e, p};

@@ -52,7 +52,7 @@ std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::
   return scanned;
 }
 
-/// Smallest and largest of one block, NaN ignored; counts the NaN.
+/// Smallest and largest height of one block; ignores and counts NaN.
 template <class D>
 HWY_INLINE void fill_block(D d, const float* samples, std::ptrdiff_t stride, std::int32_t cols, std::int32_t rows,
                            float& low, float& high, std::uint64_t& nodata) {

@@ -11,10 +11,10 @@
 
 namespace scarp {
 
-/// Larger heights use the slow path: products of them would overflow.
+/// Larger heights use the slow path, since their products would overflow.
 inline constexpr float kMaxScanHeight = 0x1p96f;
 
-/// The plane of a triangle as the kernels see it; corners[0] is the base.
+/// The plane of a triangle for the kernels; corners[0] is the base.
 struct ScanPlane {
   float slope_x = 0, slope_y = 0, height = 0;  ///< height of the base
   float guard = 0;  ///< bound of |computed − exact error| at every sample of the closed triangle whose error is at most
@@ -28,7 +28,7 @@ struct ScanPlane {
     double qx, qy, rx, ry;  ///< multiples of 1/8, at most 2¹⁹ in magnitude
     double qz, rz;
   };
-  /// The same for a base at `height`. REQUIRES: q before r as seen from the base, counter-clockwise.
+  /// The same for a base at `height`. REQUIRES: base, q and r are counter-clockwise.
   static ScanPlane spanned(float height, const Span& span, double threshold);
 };
 
@@ -38,10 +38,10 @@ struct ScanPlane {
 //   To float, its product, the sum of both:                                          3u(X + Y)
 //   z − za, which is at most X + Y + the error, and the last difference, an error:   u(X + Y + 2T) + 2uT
 //   threshold − guard to float:                                                       uT
-// 4u(X + Y) + 5uT + 2⁻⁵⁰·reach: below, each at least 1.6-fold, which covers second-order terms and the roundings of the
-// guard itself. Below the smallest normal number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹² times: less than
-// 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za and T round (3uT), and a difference of floats is exact where it is
-// small; so a threshold of 0 has no guard.
+// The sum is 4u(X + Y) + 5uT + 2⁻⁵⁰·reach. The code uses at least 1.6 times each term, which covers second-order terms
+// and the roundings of the guard itself. Below the smallest normal number, each rounding adds up to 2⁻¹⁵⁰, and that of
+// a slope 2¹² times as much: less than 2⁻¹³⁶ in all. For a level triangle, slopes are exactly 0, z − za and T round
+// (3uT), and a small difference of floats is exact; so a threshold of 0 has no guard.
 [[gnu::always_inline]] inline ScanPlane ScanPlane::through(const TileView& tile,
                                                            const std::array<TilePoint, 3>& corners, double threshold) {
   const auto [p, q, r] = std::array{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};

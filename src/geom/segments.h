@@ -20,9 +20,9 @@ struct ClippedSegment {
   double begin = 0, end = 1;  ///< ends within the rectangle, as fractions of the whole
 };
 
-/// Clips a segment of any coordinates to [0, width] × [0, height]. Where it crosses the border, its end becomes the
-/// border's lattice point nearest to the crossing, for either direction of the segment. False if at most a point is
-/// left.
+/// Clips a segment of any coordinates to [0, width] × [0, height]. Where the segment crosses the border, its end
+/// becomes the border's lattice point nearest to the crossing, for either direction of the segment. False if at most a
+/// point remains.
 bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t height, ClippedSegment& clipped);
 
 /// True if x + y is constant along the segment.
@@ -34,14 +34,14 @@ void visit_neighbours(std::span<const Segment> segments, FunctionRef<void(std::u
 
 struct Crossings {
   std::vector<Point> points;  ///< in raster order, distinct
-  bool are_exact = true;      ///< all are lattice points: none was rounded
+  bool are_exact = true;      ///< all are lattice points, so none was rounded
 };
 
 /// The points where two segments cross, other than their ends, rounded to the nearest lattice point, halves up. A
 /// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two of one kind share
 /// more than a point; coordinates in [0, kMaxCoordinate]; `rigid` run along the axes or diagonals between points of
-/// even coordinates. Cost: O((n + k) log n), where segments are divided into pieces of their mean length and the boxes
-/// of k pairs of pieces meet.
+/// even coordinates. Cost: O((n + k) log n). Segments are divided into pieces of their mean length, and the boxes of k
+/// pairs of pieces meet.
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
 
 }  // namespace scarp

@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Raster positions examined each way.
+/// Number of raster positions examined in each direction.
 constexpr int kPlaces = 257;
 /// Degrees from Greenwich. Grids search for land up to two turns away.
 constexpr double kFarthest = 720;
@@ -60,7 +60,7 @@ Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<dou
                             "degrees (gdal_translate -a_srs EPSG:CODE FILE NEW.tif)",
                             longitudes.low, longitudes.high, kFarthest));
   if (to_degrees != nullptr) {
-    // The raster may extend a step beyond the positions examined, and around a pole all round.
+    // The raster may extend a step beyond the examined positions, and around a pole to all longitudes.
     longitudes.low -= longitudes.step;
     longitudes.high += longitudes.step;
     latitudes.low -= latitudes.step;

@@ -1,4 +1,4 @@
-// The geoid EGM96, unpacked. tools/make_egm96.py packs it, and documents the format.
+// Unpacks the geoid EGM96. tools/make_egm96.py packs it, and documents the format.
 #include "globe/egm96.h"
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ class PackedBits {
   std::size_t at_ = 0;
 };
 
-/// Integrates second differences: the next number from the last two and a difference.
+/// Integrates second differences: computes the next number from the last two and a difference.
 int after(int last, int before, int difference) { return difference + 2 * last - before; }
 
 std::vector<float> unpack_egm96() {

@@ -68,7 +68,7 @@ Space Globe::horizon_point(const Space& centre, std::span<const Space> points) c
   double farthest = 0;
   for (const Space& point : points) {
     const Space p = to_unit_sphere(point);
-    // Points below the ellipsoid count as on it, so that errors never hide a tile.
+    // Points below the ellipsoid count as points on it, so that errors never hide a tile.
     const double length2 = std::max(1.0, dot(p, p)), length = std::sqrt(length2);
     const Space towards = normalized(p);
     const double cos_alpha = dot(towards, direction);

@@ -1,4 +1,4 @@
-// The ellipsoid: positions in space, and what clients need for a tile there.
+// The ellipsoid: positions in space, and data for tile headers.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class Globe {
  public:
   explicit Globe(const Geodetic& geodetic);
 
-  /// Degrees and metres above the ellipsoid to earth-centred metres: x towards 0° E, z towards the north pole.
+  /// Converts degrees and metres above the ellipsoid to earth-centred metres: x towards 0° E, z towards the north pole.
   Space position(double longitude, double latitude, double height) const;
   /// The unit normal of the ellipsoid, outwards.
   static Space up(double longitude, double latitude);
@@ -35,8 +35,8 @@ class Globe {
   };
   static Sphere sphere_around(std::span<const Space> points);
   /// The horizon occlusion point (Ring's and CesiumJS's horizon culling): on the ray from the earth's centre through
-  /// `centre`, in units of the axes. A viewer who does not see it, or any point farther out, sees none of the points
-  /// either. NaN if none exists, as for a hemisphere.
+  /// `centre`, in units of the axes. A viewer who cannot see it, or a point farther out, sees none of the points. NaN
+  /// if none exists, as for a hemisphere.
   Space horizon_point(const Space& centre, std::span<const Space> points) const;
 
  private:
@@ -45,13 +45,13 @@ class Globe {
 
 /// Octahedral encoding of a unit vector in two bytes.
 std::array<std::uint8_t, 2> encode_octahedral(const Space& normal);
-/// A unit vector.
+/// Decodes it to a unit vector.
 Space decode_octahedral(const std::array<std::uint8_t, 2>& normal);
 
 double dot(const Space& a, const Space& b);
 Space scaled(const Space& a, double factor);
 Space sum(const Space& a, const Space& b);
-/// {0, 0, 1} for a null vector.
+/// The unit vector along `a`; {0, 0, 1} for a null vector.
 Space normalized(const Space& a);
 
 }  // namespace scarp

@@ -33,7 +33,7 @@ class GridZero final : public HeightZero {
       const double x = xs[k] - a[0], y = ys[k] - a[3];
       double col = (x * a[5] - y * a[2]) / determinant_;
       const double row = (y * a[1] - x * a[4]) / determinant_;
-      // Chooses the turn on the grid, or the nearest one behind its start.
+      // Adds turns to reach the grid, or else the first position after its start.
       if (turn_ > 0) col -= turn_ * std::floor((col + 0.5) / turn_);
       heights[k] = at(col, row);
     }
@@ -68,8 +68,8 @@ class GridZero final : public HeightZero {
 
   ZeroGrid grid_;
   double determinant_ = 0;
-  double turn_ = 0;     ///< columns of 360°, for a grid in degrees
-  int round_cols_ = 0;  ///< the same if the grid is complete, so that the last column is next to the first
+  double turn_ = 0;     ///< columns per 360°, for a grid in degrees
+  int round_cols_ = 0;  ///< the same if the grid is complete: the last column is next to the first
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ class Ground {
  public:
   Ground(const TileGrid& grid, const Geodetic& ellipsoid) : grid_(grid), globe_(ellipsoid) {}
 
-  /// Metres: earth-centred, or on the plane east, north and up from the sample at its centre.
+  /// In metres: earth-centred, or on the plane east, north and up from the sample at its centre.
   Space position(double longitude, double latitude, double height) const;
 
   /// Three unit vectors.
@@ -19,13 +19,13 @@ class Ground {
     Space east{}, north{}, up{};
   };
   Axes axes(double longitude, double latitude) const;
-  /// Metres per unit of the ground. A degree is measured in radians on the ellipsoid, in cells on the plane.
+  /// Metres per unit of the ground: a radian on the ellipsoid, a cell on the plane. unit(): units per degree.
   Globe::Radii metres(double latitude) const;
   double unit() const;
 
-  /// The largest depth of a flat circle below the curved ground, from its squared radius.
+  /// The largest depth of a flat circle of this squared radius below the curved ground.
   double sag(double radius2) const { return grid_.is_flat() ? 0 : radius2 / (2 * globe_.least_radius()); }
-  /// Globe's; 0, 0, 0 on the plane, which has no horizon.
+  /// Globe::horizon_point(); 0, 0, 0 on the plane, which has no horizon.
   Space horizon_point(const Space& centre, std::span<const Space> points) const;
 
  private:

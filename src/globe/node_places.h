@@ -20,7 +20,7 @@ class NodePlaces {
   /// Column of a longitude, which may exceed a turn.
   double col(double longitude) const { return (longitude + 180) / 360 * static_cast<double>(lattice_.per_turn); }
 
-  /// Fractional row of a latitude; row 0 north of all rows, the last one south of them.
+  /// Fractional row of a latitude; clamped to row 0 in the north and the last row in the south.
   double row(double latitude) const {
     std::int64_t above = 0, below = lattice_.last_row();
     if (latitude >= lattice_.latitude(above)) return static_cast<double>(above);

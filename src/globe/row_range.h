@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Begin and end of the points in the box, among `count` at equal steps. Points outside by less than 1/100,000,000 of
-/// the box count as inside, because of rounding.
+/// Begin and end of the points in the box, among `count` points at equal steps. Because of rounding, points outside by
+/// less than 1/100,000,000 of the box count as inside.
 inline std::pair<std::size_t, std::size_t> range_within(double x, double step_x, double y, double step_y,
                                                         std::size_t count, const DegreeBox& box) {
   double first = 0, last = static_cast<double>(count) - 1;

@@ -11,7 +11,7 @@ struct SamplePosition {
   double col = 0, row = 0;
 };
 
-/// Farther away doubles do not resolve a step of the lattice, so it is unknown where a line enters the raster.
+/// At larger distances doubles do not resolve a lattice step, so the place where a line enters the raster is unknown.
 inline constexpr double kFarthestSample = 0x1p41;
 inline bool can_be_placed(const SamplePosition& at) {
   return std::abs(at.col) <= kFarthestSample && std::abs(at.row) <= kFarthestSample;

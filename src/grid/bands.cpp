@@ -41,7 +41,7 @@ Result<void> Band::load(std::int32_t first, std::int32_t count) {
     count_ = 0;
     done = read(first, count);
   } else {
-    // Move kept rows while the buffer holds both ranges.
+    // Kept rows are moved while the buffer holds both ranges.
     held_.resize(static_cast<std::size_t>(std::max(count, count_) * cols));
     const auto begin = held_.begin() + (from - first_) * cols, end = held_.begin() + (to - first_) * cols;
     if (first < first_) {
@@ -97,7 +97,7 @@ RowReader::RowReader(const HeightField& field)
 
 Result<float*> RowReader::read(std::int32_t row) {
   if (!band_.holds(row)) {
-    band_.clear();  // callers that change rows get them unmodified
+    band_.clear();  // rows that the caller changed are read again
     SCARP_RETURN_IF_ERROR(band_.load(row, std::min(most_, field_.rows - row)));
   }
   return band_.row(row);

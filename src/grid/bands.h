@@ -1,4 +1,4 @@
-// Reading raster rows, in memory or streamed: in bands of some rows at a time. Samples in memory are a single band.
+// Reading raster rows, in memory or streamed, in bands of several rows. Samples in memory are a single band.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +16,19 @@
 
 namespace scarp {
 
-/// Rows held in memory for now, of samples or of another value per sample. For one thread.
+/// Rows that are currently in memory, of samples or of another value per sample. For one thread.
 class Band {
  public:
   /// Reads a window, row-major.
   using Read = std::function<Result<void>(Point first, std::int32_t cols, std::int32_t rows, float* out)>;
-  /// Holds no rows yet, later at most `most`. The field must outlive the band.
+  /// Initially holds no rows, later at most `most`. The field must outlive the band.
   Band(const HeightField& field, std::int32_t most);
   Band(std::int32_t cols, std::int32_t rows, Read read, std::int32_t most);
 
-  /// Holds exactly `count` rows from `first` on; does not read again those already held. Fails as the source does.
+  /// Loads exactly `count` rows from `first` on. Rows already held are not read again. Fails as the source does.
   /// REQUIRES: count <= most.
   Result<void> load(std::int32_t first, std::int32_t count);
-  /// The same; throws SourceFailure.
+  /// Like load(), but throws SourceFailure.
   void hold(std::int32_t first, std::int32_t count);
   /// Releases all rows.
   void clear() { count_ = 0; }
@@ -74,15 +74,14 @@ class SampleView {
   const Band* band_ = nullptr;
 };
 
-/// How to process a raster in bands: a sweep works on each band once, with half as many rows of its neighbours on both
-/// sides in memory.
+/// The division of a raster into bands. A sweep processes each band once, together with half a band on both sides.
 struct Bands {
   std::int32_t rows = 0, side = 1;
 
   std::size_t count() const { return static_cast<std::size_t>((rows - 1) / side + 1); }
   std::int32_t begin(std::size_t i) const { return static_cast<std::int32_t>(i) * side; }
   std::size_t at(std::int32_t row) const { return static_cast<std::size_t>(row / side); }
-  /// A little above a band counts as in it, to save another sweep.
+  /// True if the row lies in the band or slightly above it, which saves another sweep.
   bool reaches(std::size_t i, std::int32_t row) const { return row >= begin(i) - side / 4 && row < begin(i) + side; }
   void hold(std::size_t i, Band& band) const {
     const std::int32_t first = std::max(begin(i) - side / 2, 0);
@@ -90,25 +89,25 @@ struct Bands {
   }
 };
 
-/// Rows [begin, end) of a raster, plus up to a given number above and below.
+/// Rows [begin, end) of a raster, plus a limited number above and below.
 struct RowRange {
   Raster samples;          ///< NaN is nodata
-  std::int32_t first = 0;  ///< its first row, in the raster
+  std::int32_t first = 0;  ///< the raster's row that `samples` begins with
   std::int32_t begin = 0, end = 0;
 
   const float* row(std::int32_t y) const { return samples.row(y - first); }
 };
 
-/// Calls visit(range) from the top down. Each row lies in [begin, end) of one range, which also holds `reach` rows
-/// above and below these, as far as the raster extends. A raster in memory is one range. Streamed samples are read
-/// once; memory: 4 bytes per sample of 64 + 2 · reach rows. Fails as the field does, and as visit() does.
+/// Calls visit(range) from the top down. Each row lies in [begin, end) of one range, which also holds up to `reach`
+/// rows above and below. A raster in memory is one range. Streamed samples are read once. Memory: 4 bytes per sample of
+/// 64 + 2 · reach rows. Fails as the field does, and as visit() does.
 Result<void> sweep_rows(const HeightField& field, std::int32_t reach,
                         FunctionRef<Result<void>(const RowRange& range)> visit);
 
-/// Bytes of such a range; 0 for samples in memory.
+/// Bytes of a range of sweep_rows(); 0 for samples in memory.
 std::uint64_t sweep_bytes(const HeightField& field, std::int32_t reach);
 
-/// Reads rows one by one, from the top down. Each is read once, several at a time.
+/// Returns rows one by one, from the top down. Reads each row once, in groups.
 class RowReader {
  public:
   explicit RowReader(const HeightField& field);

@@ -1,12 +1,12 @@
-// Voids closed by an outline tolerance.
+// Closes voids by an outline tolerance.
 //
 // The domain may grow by the tolerance from all sides. So a void that lies entirely within that distance of its outline
-// may become surface, and its outline costs nothing. A single missing sample costs six triangles, and ragged voids are
-// mostly surrounded by voids of one or a few samples.
+// may become surface, and saves its outline. A single missing sample costs six triangles, and ragged voids are usually
+// surrounded by many tiny voids.
 //
-// Quarters of cells show whether every point of a void is near its outline: each must lie within the tolerance of one
-// edge. The farthest point of a square from an edge is one of its corners, so this test is exact. It may keep a void
-// only where a quarter is covered by two edges together.
+// Every point of a void is near its outline if each quarter of its cells lies within the tolerance of one edge. A
+// square's farthest point from an edge is a corner, so corners suffice. The test fails needlessly only if a quarter
+// needs two edges to cover it.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -54,7 +54,7 @@ class Void {
     for (std::int32_t y = 0; fits() && y < (high_.y - low_.y) * kSteps; y += kHalf) {
       find_edges(y, reach);
       for (std::size_t i = 0; i + 1 < crossings_.size(); i += 2) {
-        // Centres between the two crossings, including on the outline.
+        // Centres between the two crossings, including those on the outline.
         for (std::int32_t x = crossings_[i] / kHalf * kHalf; x + kQuarter <= crossings_[i + 1]; x += kHalf) {
           if (holds_a_height({x, y}) || !is_quarter_near({x, y}, reach)) return false;
         }
@@ -69,7 +69,7 @@ class Void {
     return high_.x - low_.x <= kMost && high_.y - low_.y <= kMost;
   }
 
-  /// Finds edges near the row of quarters, and where they cross its middle. An outline runs along rows, columns and
+  /// Finds edges near the row of quarters, and their crossings with its middle. Outlines follow rows, columns and
   /// diagonals.
   void find_edges(std::int32_t y, double reach) {
     near_.clear();

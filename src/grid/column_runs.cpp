@@ -7,7 +7,7 @@ namespace {
 
 using RowRuns = std::span<const SampleRun>;
 
-/// Calls each(x) for the columns of `runs` that `others`, of another row, do not contain.
+/// Calls each(x) for the columns of `runs` that are not in `others`, the runs of another row.
 template <class Each>
 void for_each_only_in(RowRuns runs, RowRuns others, const Each& each) {
   auto other = others.begin();
@@ -23,7 +23,7 @@ void for_each_only_in(RowRuns runs, RowRuns others, const Each& each) {
   }
 }
 
-/// Calls end(x, begin, end) for each run of each column, downwards.
+/// Calls end(x, begin, end) for each run of each column, from the top down.
 template <class End>
 void for_each_column_run(RowRuns runs, std::int32_t cols, const End& end) {
   std::vector<std::int32_t> begun(static_cast<std::size_t>(cols));

@@ -1,4 +1,4 @@
-// Sets of samples by column, with the vertical distance to the nearest one.
+// Sets of samples by column, and vertical distances to them.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ class ColumnRuns {
     std::int32_t begin = 0, end = 0;
   };
 
-  /// `runs`: in raster order, disjoint, within so many columns. Cost: O(runs + columns + runs made); these are
-  /// proportional to the length of the set's outline.
+  /// `runs`: in raster order, disjoint, in a raster of `cols` columns. Cost: O(columns + runs + resulting runs). Both
+  /// numbers of runs are proportional to the set's outline.
   ColumnRuns(std::span<const SampleRun> runs, std::int32_t cols);
 
-  /// The disjoint runs of a column, downwards.
+  /// The disjoint runs of a column, from the top down.
   std::span<const Run> column(std::int32_t x) const {
     const auto i = static_cast<std::size_t>(x);
     return std::span(runs_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
@@ -39,8 +39,8 @@ class ColumnWalk {
   /// The walk begins at `row`.
   ColumnWalk(std::span<const ColumnRuns::Run> column, std::int32_t row);
 
-  /// Steps from `row` to the nearest sample of the set; −1: it has none. REQUIRES: rows do not decrease from call to
-  /// call.
+  /// Steps from `row` to the column's nearest sample of the set; −1: none. REQUIRES: `row` never decreases between
+  /// calls.
   std::int32_t steps_from(std::int32_t row) {
     while (next_ != end_ && next_->end <= row) ++next_;
     const std::int32_t below = next_ == end_ ? -1 : next_->begin > row ? next_->begin - row : 0;
@@ -50,7 +50,7 @@ class ColumnWalk {
   }
 
  private:
-  const ColumnRuns::Run *first_, *end_, *next_;  // next_: the first that does not end above the row
+  const ColumnRuns::Run *first_, *end_, *next_;  // next_: the first run that does not end above the row
 };
 
 }  // namespace scarp

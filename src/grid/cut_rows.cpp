@@ -17,8 +17,7 @@ namespace {
 /// Floor of a / b. REQUIRES: b > 0.
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-/// Calls visit(run) for the cells that an edge crosses, plus some neighbours, only for rows of cells of
-/// the raster.
+/// Calls visit(run) for the raster's cells that an edge crosses, plus some neighbours.
 template <class Visit>
 void visit_cells(Point p, Point q, std::int32_t cols, std::int32_t rows, const Visit& visit) {
   if (p.y > q.y) std::swap(p, q);

@@ -1,4 +1,4 @@
-// The outline of a cut by rows: the side of each sample, and which samples are near the remaining surface.
+// The outline of a cut by rows: the side of each sample, and the samples near the remaining surface.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@ enum class CutSide : std::uint8_t { kBeyond, kOnWall, kWithin };
 
 class CutRows {
  public:
-  /// `outline`: pairs of points in kLatticeSteps, the edges at which a polygon or its complement ends, complete within
-  /// the raster's rectangle up to its sides. Either side may be the one that remains. Memory: some 40 bytes for each
-  /// row of samples that an edge crosses or runs along, half of them during construction only, and 24 per row.
+  /// `outline`: the edges of a polygon or its complement, as pairs of points in kLatticeSteps. It must be complete
+  /// within the raster's rectangle. Either side may remain. Memory: 24 bytes per row, and about 40 bytes for each row
+  /// of samples that an edge crosses or follows, half of them only during construction.
   CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t cols, std::int32_t rows);
 
   /// The side of a sample. Cost: O(log(crossings of its row)).
   CutSide side(Point sample) const;
 
-  /// Masks samples of a window as nodata (NaN) unless they belong to a cell near the cut surface. Kept are the cells
-  /// that the surface lies in or touches and the cells around them, so that interpolated heights and normals do not
+  /// Masks samples of a window as nodata (NaN) unless they belong to a cell near the cut surface. These are the cells
+  /// that contain or touch the surface and the cells around them, so that interpolated heights and normals do not
   /// change. `samples`: row-major, `stride` floats from row to row. The result for a sample does not depend on the
   /// window. Cost: O(samples masked + crossings of the rows).
   void mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
@@ -41,7 +41,7 @@ class CutRows {
 
   std::int32_t cols_, rows_;
   SampleSet within_, on_;  // samples
-  SampleSet cells_;        // cells crossed by the outline, each by its first sample
+  SampleSet cells_;        // cells crossed by the outline, each given by its first sample
 };
 
 }  // namespace scarp

@@ -26,7 +26,7 @@ class Buckets {
     south_ = *south;
     const double width = *east - *west, height = *north - *south, longest = std::max(width, height);
     const double count = std::max(1.0, static_cast<double>(points.size()) / kPerBucket);
-    // Points along a line get as many buckets as others.
+    // Points along a line have as many buckets as others.
     side_ = std::max(std::sqrt(width * height / count), longest / count);
     if (!(side_ > 0)) side_ = 1;
     cols_ = static_cast<std::int64_t>(width / side_) + 1;
@@ -53,7 +53,7 @@ class Buckets {
     const double x = points_.x[point], y = points_.y[point];
     const std::int64_t col = col_of(x), row = row_of(y), farthest = std::max(cols_, rows_);
     for (std::int64_t ring = 0; ring <= farthest; ++ring) {
-      // All within (ring - 1) sides were seen.
+      // All points within (ring - 1) sides were seen.
       const double seen = static_cast<double>(ring - 1) * side_;
       if (found == kNeighbours && ring > 0 && nearest.back().square <= seen * seen) break;
       for (std::int64_t r = std::max<std::int64_t>(row - ring, 0); r <= std::min(row + ring, rows_ - 1); ++r) {

@@ -3,14 +3,14 @@
 // Problem: a nodata sample needs a height from the valid samples around it, weighted by proximity, in time independent
 // of the size of the area.
 //
-// Idea: search along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
-// one of its north-western neighbour, unless that neighbour is valid itself. So one sweep down the rows finds W, N, NW
+// Idea: search only along the eight compass directions. A sample's nearest valid sample to the north-west is its
+// north-western neighbour if valid, and otherwise that neighbour's result. So one sweep down the rows finds W, N, NW
 // and NE, and one sweep up E, S, SW and SE. Each nodata sample accumulates Σ w and Σ w·(z − reference), w = 1 /
-// distance², in two passes over the raster. The reference is the first height found: with a flat surround the result is
-// exactly that height. Σ w is a float, for memory; Σ w·(z − reference) may exceed float's range. Heights are written at
-// the end, so filled samples do not affect each other.
+// distance², in two passes over the raster. The reference is the first height found, so a flat surround gives exactly
+// its height. Σ w is a float, for memory; Σ w·(z − reference) may exceed float's range. Heights are written at the end,
+// so filled samples do not affect each other.
 //
-// Source: the sweeps are those of distance transforms (Rosenfeld & Pfaltz 1966); the weights are Shepard's (1968).
+// Sources: sweeps as in distance transforms (Rosenfeld & Pfaltz 1966); weights of Shepard (1968).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,12 +40,12 @@ class Sweeper {
   Sweeper(const OwnedHeightField& field, std::vector<Gathered>& gathered, double max_distance)
       : field_(field), gathered_(gathered), max_squared_(max_distance * max_distance) {}
 
-  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and accumulates heights for each
+  /// Visits rows downwards and columns eastwards (`step` = +1), or the reverse (−1). Accumulates heights for each
   /// nodata sample along the four directions behind the sweep.
   void sweep(int step) {
     const int cols = field_.cols, rows = field_.rows;
     const std::size_t width = static_cast<std::size_t>(cols);
-    // Results of the previous row and this one: straight, left, right. Extra columns for the border.
+    // Results of the previous row and this one: straight, left, right. The border has extra columns.
     std::vector<Seen> straight(width + 2), left(width + 2), right(width + 2);
     std::vector<Seen> next_straight(width + 2), next_left(width + 2), next_right(width + 2);
     std::size_t slot = step > 0 ? 0 : gathered_.size();

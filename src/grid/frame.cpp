@@ -14,8 +14,8 @@ bool is_float32(double value) {
          static_cast<double>(static_cast<float>(value)) == value;
 }
 
-/// True if p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j: both are multiples of one power of two, and the
-/// sum stays within 24 bits of it.
+/// True if p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j: p and q are multiples of a power of two, and the
+/// sum stays within 2^24 times that power.
 bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
   const double span = std::abs(p) * reach_i + std::abs(q) * reach_j;
   if (span == 0) return true;
@@ -28,7 +28,7 @@ bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
 
 /// True if step·k is a float32 for every k in [first, last].
 bool multiples_are_float32(double step, int first, int last) {
-  // Multiples of a step with few digits, such as a power of two, are always float32.
+  // Multiples of a step with few digits, such as a power of two, are always exact.
   if (sums_are_float32(step, 0, std::max(std::abs(first), std::abs(last)), 0)) return true;
   for (int k = first; k <= last; ++k) {
     if (!is_float32(step * k)) return false;

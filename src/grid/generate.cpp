@@ -1,6 +1,6 @@
-// Synthetic fields. The formulas, their integer divisions, float32 arguments and truncated heights are those of genstm,
-// so that its figures can be reproduced. Only the hyperbolic tangent and the cosine are computed here, since libm
-// differs between machines.
+// Synthetic fields. Formulas, integer divisions, float32 arguments and truncation of heights are those of genstm, so
+// that its figures can be reproduced. Only the hyperbolic tangent and the cosine are computed here, since libm differs
+// between machines.
 #include "grid/generate.h"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ float step_height(int offset, double width) {
   return static_cast<float>(static_cast<int>(1000 * (1 + tanh_of(static_cast<double>(s)))));
 }
 
-/// A hash (splitmix64's finish) of the position as −1 … 1, independent of other calls.
+/// A hash of the position (splitmix64's finish), as −1 … 1, independent of other calls.
 double noise_at(std::uint64_t seed, int octave, std::uint64_t col, std::uint64_t row) {
   std::uint64_t h = seed + 0x9e3779b97f4a7c15u * (static_cast<std::uint64_t>(octave) + 1);
   for (const std::uint64_t part : {col, row}) {
@@ -55,7 +55,7 @@ double noise_at(std::uint64_t seed, int octave, std::uint64_t col, std::uint64_t
   return static_cast<double>(h >> 11) * 0x1p-52 - 1;
 }
 
-/// Noise on a lattice of `cell` samples, with cubic interpolation between.
+/// Noise on a lattice of `cell` samples, with cubic interpolation between its nodes.
 double noise_between(std::uint64_t seed, int octave, int cell, int col, int row) {
   const auto blend = [](double t) { return t * t * (3 - 2 * t); };
   const double u = blend(static_cast<double>(col % cell) / cell), v = blend(static_cast<double>(row % cell) / cell);

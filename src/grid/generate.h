@@ -1,4 +1,4 @@
-// Synthetic height fields: the paper's program genstm, and more, for tests, demonstrations and documents.
+// Synthetic height fields for tests, demonstrations and documents: those of the paper's program genstm, and more.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// Letters and formulas are genstm's: nx, ny are columns and rows, x, y the sample. Integer divisions drop the
-/// fraction. Heights are truncated to integers (except for kFractal and kSmooth).
+/// Letters and formulas are genstm's: nx and ny are the numbers of columns and rows, x and y the sample. Integer
+/// divisions drop the fraction. Heights are truncated to integers (except for kFractal and kSmooth).
 enum class FieldStyle {
   kCliff,              ///< h: a vertical cliff across x, 1000 where x > nx/2, else 0
   kStep,               ///< x: a soft step in x, 1000 (1 + tanh((x − nx/2) / (nx/8.0)))
@@ -37,8 +37,8 @@ std::optional<FieldStyle> find_field_style(const std::string& name);
 const std::vector<std::string>& field_style_names();
 
 /// cols · rows heights of at least 0 in the grid frame, the same on every machine (no libm). The seed affects kFractal
-/// and kSmooth only. genstm's heights are 16-bit and wrap round beyond 65535 (paraboloids of 363 samples and more);
-/// these do not. Fails with kUsage unless sides are 2 … 65536 samples and their product is at most 2³⁰.
+/// and kSmooth only. Unlike genstm's 16-bit heights, they do not wrap round beyond 65535 (paraboloids of 363 samples
+/// and more). Fails with kUsage unless sides are 2 … 65536 samples and their product is at most 2³⁰.
 Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed = 0);
 
 }  // namespace scarp

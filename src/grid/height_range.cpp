@@ -137,7 +137,7 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
     if (extents[k].valid > 0 && !is_between_ends(range, extents[k].least, extents[k].most))
       note_ends(range, block_at(k), none);
   };
-  // Starts with both ends, so that most other samples need no scan.
+  // The blocks with both ends are first, so that most other samples need no scan.
   look(lowest);
   if (highest != lowest) look(highest);
   for (std::size_t k = 0; k < extents.size(); ++k) {

@@ -12,7 +12,7 @@ namespace scarp {
 /// The range of the samples that are finite and not `nodata`.
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
 
-/// Adds samples of which `valid` are heights from `least` to `most`, and all others NaN.
+/// Adds samples: `valid` of them are heights from `least` to `most`, all others NaN.
 void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid);
 
 /// Sets all range fields of `info`.

@@ -8,7 +8,7 @@ namespace scarp {
 std::vector<std::uint32_t> keep_points(PointSet& points, FunctionRef<bool(std::size_t)> stays) {
   std::vector<std::uint32_t> names(points.size(), 0);
   std::uint32_t kept = 0;
-  std::size_t bounded = 0;  // points with a tolerance that stay
+  std::size_t bounded = 0;  // remaining points with a tolerance
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!stays(i)) continue;
     points.x[kept] = points.x[i];

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostCrossings = std::size_t{1} << 20;
 
-/// Narrows [begin, end] to where from + t · span lies in [−1/2, size − 1/2]. False if empty.
+/// Narrows [begin, end] to the t for which from + t · span is in [−1/2, size − 1/2]. False if empty.
 bool narrow(double from, double span, int size, double& begin, double& end) {
   const double least = -0.5, most = size - 0.5;
   if (span == 0) return from >= least && from <= most;
@@ -48,8 +48,8 @@ void LineRuns::add_polygons(std::span<const Line> lines) {
   for (const auto& [polygon, rings] : polygons) fill(rings, 0, rows_);
 }
 
-/// Row by row, between every two crossings with the rings. Crossings of ragged rings need many times the memory of
-/// vertices, so rows are then processed in halves.
+/// Marks samples row by row, between every two crossings with the rings. Crossings of ragged rings need many times the
+/// vertices' memory, so their rows are processed in halves.
 void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
   std::vector<std::pair<int, double>> crossings;
   for (const Line* ring : rings) {
@@ -73,7 +73,7 @@ void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
   std::sort(crossings.begin(), crossings.end());
   for (std::size_t i = 0; i + 1 < crossings.size();) {
     const auto [row, from] = crossings[i];
-    if (crossings[i + 1].first != row) {  // the last of an odd number: the ring is not closed
+    if (crossings[i + 1].first != row) {  // an odd crossing: the ring is not closed
       ++i;
       continue;
     }

@@ -1,8 +1,8 @@
 // The local metric frame.
 //
-// Problem: a geographic raster has x and y in degrees and z in metres, which no 3-D model can mix. A true map
-// projection is not affine in the grid: planes of triangles over the grid would not be planes in the model, and float32
-// rounding of projected positions would move vertices off their samples.
+// Problem: a geographic raster has x and y in degrees and z in metres, which no 3-D model can mix. A map projection is
+// not affine on the grid: plane triangles over the grid would not be plane in the model, and float32 rounding of
+// projected positions would move vertices off their samples.
 //
 // Idea: replace degrees by metres with two constants, those of the ellipsoid at the centre sample's latitude φ:
 //
@@ -10,9 +10,9 @@
 //   N = a / (1 − e² sin²φ)^{1/2}             prime-vertical radius of curvature:  one radian of longitude = N cos φ
 //
 // with a the semi-major axis and e² = f (2 − f). The map stays affine, so the bound on the grid also holds in the
-// model. Its scale is true along the centre's parallel and meridian; elsewhere east–west lengths are off by cos
-// φ_centre / cos φ. The cell sizes are then rounded so that integer multiples of them are exact float32 values: a
-// vertex in a file with float32 offsets lies exactly on its sample.
+// model. Its scale is true along the centre's parallel and meridian; elsewhere east–west lengths are wrong by the
+// factor cos φ_centre / cos φ. The cell sizes are then rounded so that integer multiples of them are exact float32
+// values: a vertex in a file with float32 offsets lies exactly on its sample.
 //
 // Source of the formulas: Snyder, Map Projections: A Working Manual (USGS Professional Paper 1395), equations 4-18
 // and 4-20.
@@ -30,8 +30,8 @@ namespace {
 
 constexpr double kLargestInteger = 0x1p24;  // every integer up to here is a float32
 
-/// Rounds p and q to multiples of the smallest power of two for which |p|·reach_p + |q|·reach_q stays within 2^24 of
-/// it.
+/// Rounds p and q to multiples of a power of two: the smallest for which |p|·reach_p + |q|·reach_q is at most 2^24
+/// times it.
 void round_pair(double& p, double& q, double reach_p, double reach_q) {
   const double span = std::abs(p) * reach_p + std::abs(q) * reach_q;
   if (span == 0 || !std::isfinite(span)) return;
@@ -103,7 +103,7 @@ Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerU
 Result<Frame> cell_frame(double cell, int cols, int rows) {
   Frame frame;
   frame.kind = Frame::Kind::kLocal;
-  // Rounded for the longer side, so that cells stay square.
+  // The width is rounded for the longer side, so that cells stay square.
   const int side = std::max(cols, rows);
   const double width = centred_affine({cell, 0, 0, -cell}, side, side)[1], reach = cell * side;
   frame.affine = centred_affine({width, 0, 0, -width}, cols, rows);

@@ -20,17 +20,17 @@ struct DirectedEdge {
 
 bool is_surface_cell(unsigned corners) { return std::popcount(corners) >= 3; }
 
-/// Side k of a surface cell belongs to its surface if both its ends are heights.
+/// True if side k of a surface cell belongs to the surface: both ends are heights.
 bool has_side(unsigned corners, unsigned k) {
   return is_surface_cell(corners) && (corners >> k & 1) && (corners >> (k + 1) % 4 & 1);
 }
 
-/// Adds the sides of a surface cell at which the surface ends. `beyond`: the corners of the cells at its four sides.
+/// Adds those sides of a surface cell where the surface ends. `beyond`: the corners of the cells at its four sides.
 void add_cell(std::int32_t x, std::int32_t y, unsigned corners, const unsigned (&beyond)[4],
               std::vector<DirectedEdge>& edges) {
   const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
   for (unsigned k = 0; k < 4; ++k) {
-    // Both cells share a side's ends, so the neighbour has the side exactly if it is surface.
+    // The neighbour shares the side's ends, so it has the side exactly if it is surface.
     if (has_side(corners, k) && !is_surface_cell(beyond[k])) edges.push_back({at(k), at(k + 1)});
     if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
   }
@@ -81,7 +81,7 @@ class FourRows {
       left_ = std::min(left_, run.begin);
       right = std::max(right, run.end);
     }
-    left_ -= 2;  // the cell before the first one has a neighbour, too
+    left_ -= 2;  // also for the left neighbour of the first cell
     columns_.resize(static_cast<std::size_t>(right + 2 - left_));
   }
 
@@ -137,7 +137,7 @@ std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
   return edges;
 }
 
-/// A sort key for the turn from `in` to `out`, from just above −180° to +180°; larger is farther left.
+/// A sort key for the turn from `in` to `out`, for angles above −180° up to +180°; larger is farther left.
 double left_turn(Point in, Point out) {
   const int cross = in.x * out.y - in.y * out.x, dot = in.x * out.x + in.y * out.y;
   // Unit steps of a lattice: the eight turns have exact, distinct keys without trigonometry.
@@ -161,8 +161,8 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
           std::lower_bound(edges.begin(), edges.end(), edges[e].to,
                            [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
           edges.begin());
-      // If polygons touch, the sharpest left turn stays in the same wedge of surface. The used start remains a
-      // candidate, since it closes the polygon.
+      // If polygons touch, the sharpest left turn stays in the same wedge of surface. The start remains a candidate
+      // although used, since it closes the polygon.
       std::size_t next = edges.size(), end = first;
       for (; end < edges.size() && edges[end].from == edges[e].to; ++end) {
         if (used[end] && end != start) continue;

@@ -12,9 +12,9 @@
 
 namespace scarp {
 
-/// Closed polygons with the domain on their left (positive orientation: outer borders positive, holes negative).
-/// Polygons may touch themselves and each other in single points, which are then vertices of all polygons there; they
-/// never cross. There are no other collinear points.
+/// Closed polygons with the domain on their left: outer borders have positive orientation, holes negative. Polygons
+/// never cross. They may touch themselves and each other in single points, which are then vertices of all polygons
+/// there. There are no other collinear points.
 using Outline = std::vector<std::vector<Point>>;
 
 /// True if every sample is a height. Cost: O(samples).
@@ -34,12 +34,12 @@ inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t
   return bit(x, y, 0) | bit(x + 1, y, 1) | bit(x + 1, y + 1, 2) | bit(x, y + 1, 3);
 }
 
-/// Closes voids that contain no height and lie entirely within `tolerance` samples of their outline: they become
-/// surface. REQUIRES: an outline as traced. Cost: O(L) for small voids.
+/// Closes (makes surface) the voids that contain no height and lie entirely within `tolerance` samples of their
+/// outline. REQUIRES: an outline as traced. Cost: O(L) for small voids.
 Outline close_voids(const Raster& raster, Outline outline, double tolerance);
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
-/// domain only grows, over nodata samples: no valid sample is cut off or newly enclosed, and polygons still do not
+/// domain only grows, over nodata samples. No valid sample is cut off or newly enclosed, and polygons still do not
 /// cross. Vertices are a subset of the old ones and include those where polygons touch. Cost: O(L · tolerance) on
 /// typical outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);

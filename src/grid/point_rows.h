@@ -22,7 +22,7 @@ class PointRows {
   }
 
   bool empty() const { return points_.empty(); }
-  /// Calls visit(x) for a row's samples in columns [first, first + cols).
+  /// Calls visit(x) for the samples of a row in columns [first, first + cols).
   template <class Visit>
   void visit(std::int32_t row, std::int32_t first, std::int32_t cols, Visit&& visit) const {
     auto at = std::lower_bound(points_.begin(), points_.end(), Point{first, row}, before);

@@ -1,4 +1,4 @@
-// Sets of samples, row by row; memory grows with their outline only.
+// Sets of samples, row by row; their memory depends only on their outline.
 #pragma once
 
 #include <compare>
@@ -24,7 +24,7 @@ class SampleRuns {
   /// Sorts runs into raster order and makes them disjoint. Cost: O(n log n) for n runs added.
   void merge();
 
-  /// The runs added, as merge() arranged them.
+  /// The runs added; after merge(), sorted and disjoint.
   const std::vector<SampleRun>& all() const { return runs_; }
 
  private:
@@ -35,7 +35,7 @@ class SampleRuns {
 /// A set of samples for many queries.
 class SampleSet {
  public:
-  /// Makes the set for a raster of so many rows. `runs`: in raster order, disjoint.
+  /// Makes the set for a raster of `rows` rows. `runs`: in raster order, disjoint.
   SampleSet(std::vector<SampleRun> runs, std::int32_t rows);
 
   bool has(Point p) const;

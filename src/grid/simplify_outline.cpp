@@ -1,9 +1,9 @@
-// Fewer vertices on ragged outlines, without losing a sample.
+// Removes vertices of ragged outlines without losing a sample.
 //
 // A straight segment may replace the chain between two vertices under two conditions. The chain lies on the segment's
-// domain side (left) within the tolerance, so that the domain only grows. The area between both contains no other
-// height, so that nothing is newly enclosed. The second condition also keeps segments from crossing: anything that
-// crossed one would have to end in that area, on a sample. The path around a polygon with the fewest segments is used.
+// domain side (left) within the tolerance, so that the domain only grows. The area between chain and segment contains
+// no other height, so that none is newly enclosed. This also prevents crossings: a chain that crossed a segment would
+// have to end in that area, on a sample. The path around a polygon with the fewest segments is used.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kLongestChain = 200;  // vertices replaced by one segment
 constexpr int kLinkPatience = 8;            // successive failures before giving up on a longer segment
 
-/// True if the chain lies within `tolerance` of the segment from its first to its last point, on it or to its left.
+/// True if the chain lies on or to the left of the segment from its first to its last point, within `tolerance`.
 bool hugs_segment(std::span<const Point> chain, double tolerance) {
   const Point a = chain.front(), b = chain.back();
   const std::int64_t dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
@@ -73,7 +73,7 @@ bool area_is_nodata(const Raster& raster, std::span<const Point> chain) {
   return true;
 }
 
-/// Vertices that occur more than once, in raster order.
+/// Vertices that occur repeatedly, in raster order.
 std::vector<Point> touching_vertices(const Outline& outline) {
   std::vector<Point> all;
   for (const auto& polygon : outline) all.insert(all.end(), polygon.begin(), polygon.end());
@@ -93,7 +93,8 @@ std::vector<Point> unrolled(const std::vector<Point>& polygon, Point corner) {
   return path;
 }
 
-/// The corners, except the first, of the fewest segments that may replace a closed path; ties by the smallest growth.
+/// The corners, except the first, of the fewest segments that may replace a closed path. The smallest growth breaks
+/// ties.
 std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>& path,
                                  const std::vector<Point>& touching, double tolerance) {
   struct Best {
@@ -110,7 +111,7 @@ std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>&
     const std::size_t segments = best[i].segments + 1;
     std::int64_t growth = best[i].growth;
     for (std::size_t j = i + 1; j <= n && j - i <= kLongestChain && failures < kLinkPatience; ++j) {
-      // A polygon has three corners.
+      // A polygon needs three corners.
       if (j == n && segments < 3) break;
       if (j > i + 1 && std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;
       chain.push_back(path[j]);
@@ -130,7 +131,7 @@ std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>&
   return kept;
 }
 
-/// Starts at a corner that must be kept, or else at one kept by a first run.
+/// The path starts at a corner that must stay, or else at one that a first run kept.
 std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon,
                                     const std::vector<Point>& touching, double tolerance) {
   std::vector<Point> simplest = polygon;

@@ -1,11 +1,10 @@
-// Filling small voids, also of rasters read window by window.
+// Fills small voids, also of rasters read window by window.
 //
-// Problem: every window must show the same heights in a void, however it cuts the void, without reading the whole
-// raster.
+// Problem: a void must have the same heights in every window that cuts it, without reading the whole raster.
 //
-// Idea: voids are 8-connected. So each of the eight directions in which fill_nodata() searches from a missing sample
-// ends at the first height next to the sample's own void: the result depends only on the heights around the void. A
-// void of at most s samples a side that reaches into a window lies within s samples of it, and its border within s + 1.
+// Idea: voids are 8-connected. So the search of fill_nodata() in each of eight directions ends at a height next to the
+// sample's own void, and the result depends only on the heights around the void. If a void of at most s × s samples
+// reaches into a window, it lies within s samples of the window, and the heights around it within s + 1.
 //
 // Runs of missing samples are joined row by row (Rosenfeld & Pfaltz 1966).
 #include "grid/small_voids.h"
@@ -41,7 +40,7 @@ struct VoidRun {
 
 class VoidFinder {
  public:
-  /// `keep`: stores the runs of all rows instead of the last one only.
+  /// `keep`: store the runs of all rows, not only of the last.
   VoidFinder(int cols, bool keep) : cols_(cols), keep_(keep) {}
 
   void add(std::span<const float> row) {
@@ -69,7 +68,7 @@ class VoidFinder {
     last_.assign(row.begin(), row.end());
     ++row_;
   }
-  /// Call it after the last row.
+  /// Must be called after the last row.
   void finish() {
     for (std::size_t k = first_above_; k < runs_.size(); ++k) voids_[root(runs_[k].area)].is_open = true;
   }
@@ -105,7 +104,7 @@ class VoidFinder {
           std::max(to.bottom, from.bottom), to.samples + from.samples,   to.is_open || from.is_open,
           std::min(to.least, from.least),   std::max(to.most, from.most)};
   }
-  /// Adds the heights of a row in a run and next to it.
+  /// Adds a row's heights inside and next to a run to its void.
   void see(std::size_t area, std::span<const float> row, int begin, int end) {
     if (row.empty()) return;
     SmallVoid& one = voids_[root(area)];
@@ -142,7 +141,7 @@ struct Samples2d {
   float* row(int at) const { return data + at * stride; }
 };
 
-/// Fills one void from the heights around it. `runs`: the void's.
+/// Fills one void from the heights around it. `runs`: the void's runs.
 void fill(const Samples2d& samples, const SmallVoid& one, const std::vector<VoidRun>& runs, int side) {
   OwnedHeightField box;
   box.cols = one.right - one.left + 3;
@@ -203,7 +202,7 @@ class FilledSource final : public SampleSource {
   bool is_in_memory() const override { return field_.source == nullptr || field_.source->is_in_memory(); }
 
  private:
-  /// True if a void may continue across a border of the window inside the raster, and still be small.
+  /// True if a small void may continue across a border of the window inside the raster.
   bool reaches_beyond(VoidFinder& finder, int col, int row, int cols, int rows) const {
     for (const VoidRun& run : finder.runs()) {
       const SmallVoid& one = finder.area(run.area);

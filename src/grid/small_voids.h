@@ -11,13 +11,13 @@
 
 namespace scarp {
 
-/// Fills enclosed voids of at most `side` samples a side. Returns the counts. REQUIRES: the samples are in memory as
+/// Fills enclosed voids of at most `side` × `side` samples. Returns the counts. REQUIRES: the samples are in memory as
 /// floats. Cost: O(samples + bounding boxes of the voids).
 VoidCount fill_small_voids(OwnedHeightField& field, int side);
 
-/// The samples of a field with such voids filled, identical for all windows. A window without missing samples costs
-/// only its own reading; one with a small void across its border is read again with `side` more samples around it.
-/// Borrows the field, except its source if `owner` holds that.
+/// The samples of a field with these voids filled, identical for all windows. A window without missing samples is read
+/// once. A window with a small void across its border is read again with `side` more samples around it. Borrows the
+/// field, except its source if `owner` holds that source.
 std::shared_ptr<const SampleSource> without_small_voids(const HeightField& field, int side,
                                                         std::shared_ptr<const SampleSource> owner = nullptr);
 

@@ -35,7 +35,7 @@ struct Decimals {
   int digits = 0;
   double power = 1;  ///< 10^|digits|, which a double holds exactly up to 10^22
 
-  /// The multiple that is nearest, and whether it is the coordinate itself: the double nearest to the decimal.
+  /// Sets the nearest multiple. Returns true if the double nearest to it is the coordinate.
   bool read(double value, std::int64_t& multiple) const {
     const double nearest = std::nearbyint(digits >= 0 ? value * power : value / power);
     multiple = static_cast<std::int64_t>(nearest);
@@ -43,7 +43,7 @@ struct Decimals {
   }
 };
 
-/// The finest decimals whose multiples are exact in a double and span no more than the lattice.
+/// The finest decimals whose multiples are exact doubles and span at most the lattice.
 std::optional<Decimals> finest_decimals(const AxisExtent& x, const AxisExtent& y) {
   constexpr int kMostDigits = 22;
   const double reach = std::max(x.reach(), y.reach()), size = std::max(x.size(), y.size());
@@ -123,13 +123,13 @@ struct Keyed {
   std::uint32_t point;
 };
 
-/// A point that stands for its place, and the height there.
+/// The point that represents its place, and the height there.
 struct Chosen {
   std::uint32_t point;
   double height;
 };
 
-/// The choice among points in input order, which are not empty.
+/// Chooses among points in input order. REQUIRES: at least one point.
 Chosen choose(const PointSet& points, DuplicatePolicy policy, std::span<const Keyed> among) {
   const auto height = [&](const Keyed& k) { return points.z[k.point]; };
   const auto lower = [&](const Keyed& a, const Keyed& b) { return height(a) < height(b); };
@@ -148,7 +148,8 @@ Chosen choose(const PointSet& points, DuplicatePolicy policy, std::span<const Ke
       chosen = &*std::min_element(among.begin(), among.end(), lower);
       break;
     case DuplicatePolicy::kMean: {
-      // Differences from the first: their sum does not overflow where the heights' would, and equal heights stay.
+      // A sum of differences from the first height does not overflow where a sum of heights would, and does not change
+      // equal heights.
       double sum = 0;
       for (const Keyed& k : among) sum += (height(k) - height(first)) / static_cast<double>(among.size());
       return {first.point, height(first) + sum};
@@ -161,7 +162,7 @@ bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) 
   return points.x[a] == points.x[b] && points.y[a] == points.y[b];
 }
 
-/// Sorts by place, and by input order at each.
+/// Sorts by place, and by input order at each place.
 void sort_by_place(const PointSet& points, std::span<Keyed> among) {
   sort_rarely(among, [&](const Keyed& a, const Keyed& b) {
     const auto place = [&](const Keyed& k) { return std::tuple(points.x[k.point], points.y[k.point], k.point); };
@@ -169,7 +170,8 @@ void sort_by_place(const PointSet& points, std::span<Keyed> among) {
   });
 }
 
-/// The choice at each place among points sorted by place, in `chosen`, and which of them is at the place of `best`.
+/// Stores the choice at each place in `chosen`, and returns the index of that at the place of `best`. `among`: sorted
+/// by place.
 std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::span<const Keyed> among,
                           const Chosen& best, std::vector<Chosen>& chosen) {
   chosen.clear();
@@ -182,7 +184,7 @@ std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::s
   return kept;
 }
 
-/// True for points at one place of the finest lattice.
+/// True for points too near for the finest lattice.
 bool are_inseparable(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
   return std::max(std::abs(points.x[a] - points.x[b]), std::abs(points.y[a] - points.y[b])) < extent * 0x1p-30;
 }

@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// Thrown by readers that return only samples; simplify() and measure() convert it to their own error.
+/// Thrown by readers that return only samples; simplify() and measure() return its error.
 struct SourceFailure {
   Error error;
 };

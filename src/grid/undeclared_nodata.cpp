@@ -1,4 +1,4 @@
-// Heights that probably mean nodata without being declared: outliers too far from all others to be land.
+// Heights that are probably undeclared nodata: outliers too far from all others to be land.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +34,8 @@ bool is_usual_sign(double value) {
   return std::abs(value) >= kBeyond || (value != 0 && std::find(kSigns.begin(), kSigns.end(), value) != kSigns.end());
 }
 
-/// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: the
-/// heights at this end, compared with those that would be far.
+/// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: this end
+/// has many heights compared with the far ones.
 bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid, bool are_many) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100, kLeastOfWhole = 10;
@@ -70,7 +70,7 @@ std::size_t count_far(const RareEnds& ends, std::size_t first, double other, std
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale, double offset) {
   const Scale of_values{scale, offset};
   std::size_t low = 0, high = 0;
-  // An outlier at one end may hide one at the other.
+  // An outlier at one end may hide an outlier at the other.
   for (std::size_t look = 0; look < HeightRange::kEnds; ++look) {
     const std::size_t before = low + high;
     low = count_far(range.lowest, low, range.highest[high].height, range.valid, of_values);

@@ -14,7 +14,7 @@ inline constexpr std::int32_t kFreeStep = kLatticeSteps / 8;
 /// Vertices on samples, or on a finer lattice with separate heights.
 struct VertexLattice {
   std::int32_t steps = 1;           ///< lattice steps between two samples
-  std::vector<float> heights;       ///< by vertex; NaN at nodata; empty where steps is 1: vertices have their samples'
+  std::vector<float> heights;       ///< by vertex; NaN at nodata; empty if steps is 1: vertices have their samples'
                                     ///< heights
   std::vector<std::uint8_t> fixed;  ///< by vertex: 1 if it must not move or be removed; empty: none is fixed
 

@@ -8,7 +8,7 @@ namespace scarp {
 Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
                          std::ptrdiff_t stride) {
   if (field.samples == nullptr) return field.source->read(col, row, cols, rows, out, stride);
-  // NaN equals nothing, so without nodata it replaces nothing.
+  // NaN equals nothing, so without a nodata value no sample is replaced.
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const float nodata = field.nodata.value_or(kNan);
   for (int y = 0; y < rows; ++y) {

@@ -1,4 +1,4 @@
-// Base64 decoding.
+// Base64.
 #pragma once
 
 #include <cstdint>

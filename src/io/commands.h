@@ -1,4 +1,4 @@
-// Commands of other programs for error messages, each ready to run. Words in capitals are for the user to choose.
+// Commands for error messages, ready to run except for words in capitals, which the user replaces.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@ namespace scarp {
 
 /// The file quoted for a shell; "FILE" for input without a name, such as standard input.
 std::string file_word(const std::string& file);
-/// An unused name: NEW.tif, else NEW2.tif, …, so that one remedy does not undo another.
+/// An unused name: NEW.tif, else NEW2.tif, …, so that one suggested command does not overwrite another's result.
 std::string new_file(const std::string& extension);
-/// "gdal_translate OPTIONS FILE NEW.tif". Unlike gdal_edit it can set a CRS or a position for formats that store none.
+/// "gdal_translate OPTIONS FILE NEW.tif". Unlike gdal_edit, it can set a CRS or a position if the file's format stores
+/// none.
 std::string translate_command(const std::string& options, const std::string& file);
 /// "gdalwarp OPTIONS … FILE NEW.tif". Points outside the raster become nodata; by default gdalwarp writes heights of 0.
 std::string warp_command(const std::string& options, const std::string& file);
 
 /// "sed '1,COUNTs/^/#/' FILE > NEW.csv": the first lines become comments.
 std::string comment_out_command(const std::string& file, std::uint64_t lines);
-/// "scarp simplify FILE NEW.tif -e ERROR --cell-size SIZE", of points.
+/// "scarp simplify FILE NEW.tif -e ERROR --cell-size SIZE", for a file of points.
 std::string rasterize_command(const std::string& file);
 /// "iconv -f ENCODING -t UTF-8 FILE > NEW.csv".
 std::string utf8_command(const std::string& encoding, const std::string& file);

@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// An errno as a sentence's end.
+/// An errno as the end of a sentence.
 std::string reason_of(int error);
 
 }  // namespace scarp

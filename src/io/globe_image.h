@@ -24,22 +24,24 @@ class GlobeImage {
   virtual DegreeBox covered() const = 0;
   /// Approximate pixels per degree, to the east and to the north.
   virtual std::array<double, 2> per_degree() const = 0;
-  /// The image in a box, side × side pixels, with `ground` where it has no colour; nothing if it has none at all. Equal
-  /// boxes give equal pixels. Fails with kInput.
+  /// The image in a box, side × side pixels, with `ground` for pixels without colour; nothing if no pixel has colour.
+  /// Equal boxes give equal pixels. Fails with kInput.
   virtual Result<std::optional<Picture>> read(const DegreeBox& box, int side,
                                               const std::array<std::uint8_t, 3>& ground) const = 0;
 };
 
-/// An 8-bit image, as read_drape() accepts it, in its own CRS. Read by GDAL: bilinear; areas larger than a pixel are
-/// averaged, from the file's overviews if it has them. On the earth degrees are those of WGS 84, elsewhere the image's
-/// own. Fails with kInput: no such file, not 8 bits, no position or CRS, on another planet than `ellipsoid`.
+/// An 8-bit image, as read_drape() accepts it, in its own CRS. GDAL interpolates it bilinearly, and averages areas
+/// larger than a pixel, from the file's overviews if it has them. On the earth, degrees are those of WGS 84; elsewhere,
+/// the image's own. Fails with kInput: no such file, not 8 bits, no position or CRS, another planet than that of
+/// `ellipsoid`.
 Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid);
 
 /// The texture of a tile.
 struct TileTexture {
   std::vector<std::uint8_t> bytes;  ///< bytes of an image file
   ImageFormat format = ImageFormat::kJpeg;
-  int side = 0;  ///< pixels; the outermost on each side are outside the tile, so that neighbours' filters agree
+  int side = 0;  ///< pixels; the outermost row on each side is outside the tile, so that texture filters of neighbours
+                 ///< agree
 };
 
 /// The colour of the ground for tiles without texture, and for pixels without colour.

@@ -15,29 +15,29 @@
 
 namespace scarp {
 
-/// `path`: the raster's, for error messages. Fails with kInput without a georeference or a CRS, for heights not in
-/// metres, if PROJ cannot convert to longitude and latitude, and beyond 180° of a cylindrical projection. Fails with
-/// kUsage if the reference of the heights is unknown or belongs to another planet, or PROJ's grid for it is not on this
-/// machine. Fails also as read_geoid(). Without `datum.ellipsoid` the ellipsoid is that of WGS 84, or the CRS's own if
-/// it is another planet's: more than 1 % larger or smaller.
+/// `path`: the raster's, for error messages. Without `datum.ellipsoid` the ellipsoid is that of WGS 84, or the CRS's
+/// own if it is another planet's (more than 1 % larger or smaller). Fails with kInput without a georeference or a CRS,
+/// for heights not in metres, if PROJ cannot convert to longitude and latitude, and beyond 180° of a cylindrical
+/// projection. Fails with kUsage if the reference of the heights is unknown or belongs to another planet, or if PROJ's
+/// grid for it is not on this machine. Also fails as read_geoid().
 Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, const Datum& datum,
                                      const std::string& path);
 
 /// Fails with kInput unless heights are in metres (ReadOptions::heights_in).
 Result<void> check_metres(const RasterInfo& info, const std::string& path);
 
-/// The grid of tiles that suits a raster: a local one if it has no position, no CRS, or a local CRS.
+/// The grid of tiles for a raster: local if the raster has no position, no CRS, or a local CRS.
 GridKind grid_for(const RasterInfo& info);
 
-/// `cell_size`: metres, for a raster without a position. Heights do not change; `datum` gives the height of the whole
-/// plane, and kAuto without information in the CRS is kNone. Fails with kInput for rasters in degrees, and those
-/// rotated or mirrored in their CRS, and if cells but not heights are in metres; with kUsage for a datum unsuitable for
-/// such a raster; and as place_on_globe().
+/// `cell_size`: metres, for a raster without a position. Heights do not change; `datum` determines the height of the
+/// whole plane. kAuto means kNone if the CRS has no information. Fails with kInput for a raster in degrees, rotated or
+/// mirrored in its CRS, and if cells but not heights are in metres. Fails with kUsage for a datum unsuitable for the
+/// raster, and as place_on_globe().
 Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
                                      const Datum& datum);
-/// REQUIRES: a raster with a position, in a projected CRS.
+/// REQUIRES: the raster has a position in a projected CRS.
 Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRaster& raster, const RasterOnGlobe& globe);
-/// True if the raster's CRS cannot be converted to the globe, like those of building sites.
+/// True if the raster's CRS cannot be converted to the globe, like a building site's.
 bool is_local_crs(const RasterInfo& info);
 
 /// A reference surface of heights.
@@ -45,8 +45,8 @@ struct Zero {
   std::shared_ptr<const HeightZero> heights;
   double reach = 0;  ///< largest distance from the ellipsoid, metres
 };
-/// Reads a geoid raster completely: 4 bytes per node. Fails with kInput if it cannot be read, with kUsage for one on
-/// another globe than `globe`'s, and on the earth for heights that no geoid has.
+/// Reads a whole geoid raster into memory: 4 bytes per node. Fails with kInput if it cannot be read, and with kUsage if
+/// it is on another globe than `globe` or, on the earth, has heights impossible for a geoid.
 Result<Zero> read_geoid(const Datum& datum, const RasterOnGlobe& globe);
 
 }  // namespace scarp

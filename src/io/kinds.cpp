@@ -78,7 +78,7 @@ std::string from_its_source(const std::string& path) {
                      file_word(path));
 }
 
-/// Advice on an ENVI header for GDAL. Height maps of games are square and have 16 bits.
+/// Advice on an ENVI header for GDAL. Assumes that height maps of games are square and have 16 bits.
 std::string with_header(const std::string& path, const std::string& extension, std::uint64_t bytes) {
   const bool is_float = extension == ".r32" || extension == ".f32" || extension == ".flt";
   const auto side =

@@ -49,7 +49,7 @@ Unfit count_unfit(const LentRaster& raster) {
   return unfit;
 }
 
-/// Copies the samples if one is invalid as it is.
+/// Copies the samples if any must change. Returns the number of infinities.
 std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options, OwnedHeightField& field) {
   const Unfit unfit = count_unfit(raster);
   const bool is_changed = scales_heights(options) || options.as_values;  // callers change the values

@@ -22,11 +22,10 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
 /// read_points() for lent points.
 Result<PointSet> read_lent_points(const PointSet& lent, const std::string& name, const ReadPointsOptions& options);
 
-/// Completes the position in `info` for a raster with a geotransform, and returns the frame requested by the options. A
-/// build without GDAL knows no CRS and rejects those named by the options.
+/// Completes the position in `info` if the raster has a geotransform. Returns the frame requested by the options. A
+/// build without GDAL knows no CRS and rejects the options' CRS.
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info);
-/// The same for points in memory: converts their x and y as requested by the options. Returns the unit of their
-/// vertical CRS.
+/// Converts x and y of points in memory as requested by the options. Returns the unit of their vertical CRS.
 Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points);
 
 }  // namespace scarp

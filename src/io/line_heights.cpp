@@ -10,8 +10,7 @@ namespace {
 
 using HeightPlace = std::array<double, 3>;
 
-/// Fills the places between `from` and `to`, whose heights are known. Indices beyond the end continue at the ring's
-/// start.
+/// Fills the places between `from` and `to`, which have known heights. Indices beyond the end wrap around the ring.
 void fill_between(std::span<HeightPlace> places, std::size_t from, std::size_t to) {
   const auto at = [&](std::size_t k) -> HeightPlace& { return places[k % places.size()]; };
   std::vector<double> ways{0};

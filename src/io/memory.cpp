@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kBytesPerSample = 5;  // documented need of simplify(), without vertices
 
-/// Memory available without swapping: as reported by the kernel, and allowed by the container and by `ulimit -v`.
+/// Memory available without swapping, as reported by the kernel and limited by the container and by `ulimit -v`.
 std::uint64_t available_memory() {
   std::uint64_t available = std::numeric_limits<std::uint64_t>::max();
   std::ifstream meminfo("/proc/meminfo");

@@ -1,4 +1,4 @@
-// Inputs that can be read only once.
+// Copies of input that can be read only once.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// A name that any number of readers may open for the input `path`. This is the path itself, or for "-" (standard
-/// input) and pipes a copy, made on the first call and kept for the process. The copy has no name in any folder, so it
-/// always vanishes with the process. Fails with kInput, and with kOutput if there is no space for the copy.
+/// A name that any number of readers may open for the input `path`. For "-" (standard input) and pipes it names a copy,
+/// made on the first call and kept for the process; otherwise it is the path. The copy has no name in any folder, so it
+/// vanishes with the process. Fails with kInput, and with kOutput if there is no space for the copy.
 Result<std::string> readable_name(const std::string& path);
 
 /// Stores bytes to be read again later. Returns a name for GDAL: a part of one unnamed file in the folder for temporary

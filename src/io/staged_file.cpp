@@ -47,7 +47,8 @@ int sync_file(int fd) {
   return 0;
 }
 
-/// Opens standard output, or the path; an errno below 0. Waits up to two seconds for the reader of a pipe.
+/// Opens standard output, or the path; returns a negative errno on failure. Waits up to two seconds for a pipe's
+/// reader.
 int open_directly(const std::string& path) {
   if (is_standard_output(path)) return ::dup(STDOUT_FILENO);
   constexpr int kMostTries = 100;
@@ -80,7 +81,7 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
 }
 
-/// The end of a chain of symbolic links, existing or not; the path itself if it is no link.
+/// The target of a chain of symbolic links, existing or not; the path itself if it is no link.
 std::string follow_links(const std::string& path) {
   constexpr int kMostLinks = 40;  // Linux' limit
   std::filesystem::path target = path;

@@ -14,8 +14,8 @@ namespace scarp {
 
 class StagedFile {
  public:
-  /// Devices, pipes and standard output have no old content to protect and are not renamed. Their bytes go to the
-  /// folder for temporary files if they are written by name, else directly to the target. Fails as write_file() does.
+  /// Devices, pipes and standard output have no old content to protect, so no file is renamed. With `by_name` their
+  /// bytes go to the folder for temporary files, else directly to the target. Fails as write_file() does.
   static Result<StagedFile> begin(const std::string& path, bool overwrite, bool by_name);
 
   const std::string& path() const { return path_; }
@@ -23,7 +23,7 @@ class StagedFile {
   /// For external writers. REQUIRES: by_name.
   const std::string& name() const { return temporary_->name(); }
   Result<void> write(std::span<const std::uint8_t> bytes);
-  /// Ends writing: the bytes are on disk.
+  /// Ends writing. All bytes are then on disk.
   Result<void> end();
   std::uint64_t size() const;  ///< after end()
   /// The final rename. REQUIRES: !is_direct().

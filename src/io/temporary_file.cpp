@@ -49,8 +49,8 @@ Naming outputs_naming() { return naming; }
 NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
 NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
 
-/// Names are random, because processes in two containers that share a folder may have equal numbers. An existing name
-/// belongs to another process and is not touched.
+/// Names are random, because processes in two containers that share a folder may have equal process ids. An existing
+/// file belongs to another process and is not touched.
 TemporaryFile::TemporaryFile(const std::string& folder) {
   constexpr int kMostTries = 100;
   std::random_device random;

@@ -6,7 +6,7 @@
 
 namespace scarp {
 
-/// Registers the name for pending_output() while it lives.
+/// While it lives, pending_output() returns the name.
 class PendingName {
  public:
   explicit PendingName(const std::string& name);
@@ -18,7 +18,7 @@ class PendingName {
   int place_ = -1;
 };
 
-/// outputs_naming() returns kNow while it lives, and kDone afterwards.
+/// While it lives, outputs_naming() returns kNow; afterwards, kDone.
 class NamingOutputs {
  public:
   NamingOutputs();
@@ -37,11 +37,11 @@ class TemporaryFile {
 
   const std::string& name() const { return name_; }
   int fd() const { return fd_; }
-  /// Reason of a failed creation; an errno.
+  /// The errno of a failed creation.
   int error() const { return error_; }
   /// 0 or an errno.
   int close();
-  /// It has been renamed.
+  /// Keeps the file, which has been renamed.
   void let_go() { is_ours_ = false; }
 
  private:

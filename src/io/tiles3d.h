@@ -1,9 +1,9 @@
 // 3D Tiles 1.1 of terrain: the tiles of a pyramid as GLB files, and the metadata files that list them. CesiumJS can use
-// a set as terrain (Cesium3DTilesTerrainProvider) or as an ordinary tileset; so can other 3D Tiles clients.
+// a set as terrain (Cesium3DTilesTerrainProvider) or as an ordinary tileset. Other 3D Tiles clients can use it, too.
 //
 // POSITIONS are earth-centred and lie on one lattice per level: multiples of a power of two, at most 1/32 of the
-// level's max error. Vertices shared by neighbours are the same doubles in both. On the plane of a local grid they are
-// metres from the raster's centre, and lie on its samples.
+// level's max error. Vertices shared by neighbours are the same doubles in both. On the plane of a local grid,
+// positions are metres from the raster's centre and lie on its samples.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@
 
 namespace scarp {
 
-/// Step of a level's lattice in metres, each way: as fine as 16 bits allow in a tile, but not below 1/256 of its max
-/// error. On a local grid's plane vertices lie on it, east, north and up.
+/// Steps of a level's lattice in metres along the three axes: as fine as 16 bits allow in a tile, but at least 1/256 of
+/// the level's max error. On a local grid's plane the axes are east, north and up.
 std::array<double, 3> lattice_steps(const PyramidPlan& plan, int z);
 
-/// The largest shift of a vertex by the lattice, in metres: √3/2 of the step, 0 on a plane. It adds to
-/// TerrainTile::bound(). The sum bounds the distance in space between a node and the triangles.
+/// The largest shift of a vertex by the lattice, in metres: √3/2 of the step, 0 on a plane. The sum of it and
+/// TerrainTile::bound() bounds the distance in space between a node and the triangles.
 double lattice_error(const PyramidPlan& plan, int z);
 
 /// The facts about a tile that clients need in addition to its mesh.
@@ -39,9 +39,9 @@ struct TileFacts {
   /// curved surface.
   double min_height = 0, max_height = 0;
   std::array<double, 4> sphere{};  ///< contains the triangles: centre, radius
-  /// Horizon occlusion point, in units of the ellipsoid's axes: a viewer who does not see it sees none of the tile.
-  /// Always finite; far away for tiles that cannot be hidden this way. 0, 0, 0 without a horizon: on the plane of a
-  /// local grid.
+  /// Horizon occlusion point, in units of the ellipsoid's axes: a viewer who does not see it sees no part of the tile.
+  /// Always finite; far away for tiles that the horizon cannot hide. 0, 0, 0 without a horizon: on the plane of a local
+  /// grid.
   std::array<double, 3> horizon_point{};
 
   bool has_horizon() const { return horizon_point != std::array<double, 3>{}; }
@@ -51,22 +51,22 @@ struct TileFacts {
 
 /// A tile in space.
 struct EarthTile {
-  std::array<double, 3> steps{1, 1, 1};               ///< metres, each way; all equal on a globe
+  std::array<double, 3> steps{1, 1, 1};               ///< metres, along each axis; all equal on a globe
   std::array<std::int64_t, 3> origin{};               ///< in steps: x towards 0° E, z towards the north pole
-  std::vector<std::array<std::uint32_t, 3>> offsets;  ///< from there, in steps, below 2^24
+  std::vector<std::array<std::uint32_t, 3>> offsets;  ///< from the origin, in steps, below 2^24
   std::vector<std::array<double, 3>> normals;         ///< normals of unit length
   std::vector<std::array<double, 2>> places;          ///< position in the tile, 0 … 1 from west, from north
   std::vector<std::uint32_t> triangles;               ///< counter-clockwise seen from outside
   /// Vertices on the edges, clockwise around the tile seen from outside, as CesiumJS expects them.
   std::vector<std::uint32_t> west, north, east, south;
-  /// The skirt's lower ends, in steps from the origin: one below each vertex of west, north, east and south. Empty
-  /// without a neighbour: at a pole, and where the raster of a local grid ends.
+  /// The skirt's lower ends, in steps from the origin: one below each vertex of west, north, east and south. Empty on
+  /// an edge without a neighbour: at a pole, and at the end of a local grid's raster.
   std::array<std::vector<std::array<std::uint32_t, 3>>, 4> feet;
   TileFacts facts;  ///< without the skirt
 };
 
-/// Depth of skirts in metres: 5 times the level's geometric error, as in CesiumJS and cesium-native for terrain, or of
-/// its max error if larger. This suffices next to tiles two levels coarser.
+/// Depth of skirts in metres: 5 times the level's geometric error, as in CesiumJS and cesium-native for terrain, or 5
+/// times its max error if larger. This suffices next to tiles two levels coarser.
 double skirt_depth(const PyramidPlan& plan, int z);
 
 /// Depends only on the tile and the plan, not on the machine's mathematics library.
@@ -74,15 +74,16 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan);
 
 struct TileGlbOptions {
   /// Use EXT_meshopt_compression (version 0 of the codec) and KHR_mesh_quantization. Positions then have 16 bits if the
-  /// lattice's offsets do, normals 8. Ignored in builds without libmeshoptimizer. DEFAULT: true.
+  /// offsets fit, normals 8. Ignored in builds without libmeshoptimizer. DEFAULT: true.
   bool compress = true;
-  std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none, the ground has one colour.
+  std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none; the ground then has one colour.
 };
 
 /// The bytes of a GLB file: one node with a matrix, and one mesh. Its first primitive is the surface, with
 /// CESIUM_tile_edges, clockwise; CesiumJS uses only this one for terrain. The second is the skirt, as its extras
-/// declare; its vertices are pairs, one on an edge and one below. y is up, as glTF requires; 3D Tiles clients rotate it
-/// back. Texture coordinates are multiples of 1/65535. asset.extras hold the facts. Fails as encode_glb().
+/// declare. The skirt's vertices are pairs: one on an edge and one below. The y axis points up, as glTF requires; 3D
+/// Tiles clients rotate positions back. Texture coordinates are multiples of 1/65535. asset.extras holds the facts.
+/// Fails as encode_glb().
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
 /// The facts of a tile written by encode_tile_glb(). Fails with kInput for other files.
@@ -96,14 +97,15 @@ struct TileGlb {
                                                  ///< left
   GlbImage image;                                ///< empty if absent
   std::vector<std::uint32_t> triangles;
-  std::vector<std::uint32_t> west, south, east, north;  ///< edges of CESIUM_tile_edges, in its order
-  std::vector<std::array<double, 3>> skirt;             ///< pairs: on an edge, and below; not part of the surface
+  std::vector<std::uint32_t> west, south, east, north;  ///< edges of CESIUM_tile_edges
+  std::vector<std::array<double, 3>> skirt;             ///< vertex pairs: on an edge, and below it; not part of the
+                                                        ///< surface
   std::vector<std::uint32_t> skirt_triangles;
   double step = 0;  ///< metres: the file's largest step between positions; 0 for single precision
   TileFacts facts;
 };
 
-/// Fails with kInput unless the file is Scarp's; handles hostile files.
+/// Fails with kInput unless Scarp wrote the file; accepts untrusted bytes.
 Result<TileGlb> decode_tile_glb(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
 /// A set's tiles, by level, row and column.
@@ -114,9 +116,10 @@ struct NamedFile {
   std::vector<std::uint8_t> bytes;
 };
 
-/// tileset.json and "subtrees/r/z/x/y.subtree": two roots of 180° with implicit children, named as in TileFormat::kGlb;
-/// for a local grid one, in a box, with the transform of facts.plane. A tile's geometric error is its root's divided by
-/// a power of two, and at least its level's proven error. REQUIRES: both roots exist, and each other tile's parent.
+/// tileset.json and "subtrees/r/z/x/y.subtree": two roots of 180° with implicit children, named as in TileFormat::kGlb.
+/// A local grid has one root, in a box, with the transform of facts.plane. A tile's geometric error is its root's
+/// divided by a power of two, and at least its level's proven error. REQUIRES: all roots exist, and every other tile's
+/// parent.
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
 

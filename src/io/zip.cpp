@@ -1,6 +1,6 @@
-// ZIP as used by documents in archives (PKWARE's APPNOTE 6.3). On writing, all sizes are known beforehand. On reading,
-// the directory at the end is decisive, since streaming writers omit the sizes in front of entries. 64-bit sizes are
-// always read, since some programs write them for any size. They are written if an archive is too large or has too many
+// ZIP as used for document archives (PKWARE's APPNOTE 6.3). The writer knows all sizes beforehand. The reader uses the
+// sizes in the directory at the end, since streaming writers omit those in front of entries. It always accepts 64-bit
+// sizes, since some programs write them for any size. They are written only if an archive is too large or has too many
 // entries.
 
 #include "io/zip.h"

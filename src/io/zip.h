@@ -16,7 +16,7 @@ struct ZipEntry {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Deflates the entries in order, without times: equal entries make equal archives, with one version of zlib. Fails
+/// Deflates the entries in order, without times. With one version of zlib, equal entries give equal archives. Fails
 /// with kOutput beyond 4 GB.
 Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries);
 
@@ -25,39 +25,40 @@ inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
 /// The record of an entry in an archive.
 struct ZipRecord {
   std::string_view name;
-  std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of its header; compressed and original size in bytes
+  std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of the entry's header; compressed and original size in
+                                                   ///< bytes
   std::uint32_t checksum = 0;
   std::uint16_t method = kZipStored, flags = 0;
 };
 
 std::uint32_t zip_checksum(std::span<const std::uint8_t> bytes);
 
-/// Precedes an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
+/// Appends the header that precedes an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
 void append_zip_header(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
-/// Appends a record of the directory behind all entries. Offsets have 64 bits if necessary.
+/// Appends a record of the directory, which follows all entries. Offsets have 64 bits if necessary.
 void append_zip_record(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
-/// Follows a directory of `count` records that starts at `start` and has `size` bytes.
+/// Appends the end that follows a directory of `count` records, which starts at `start` and has `size` bytes.
 void append_zip_end(std::vector<std::uint8_t>& bytes, std::uint64_t count, std::uint64_t start, std::uint64_t size);
 
 /// The position of an archive's directory.
 struct ZipDirectory {
   std::uint64_t count = 0, start = 0;
 };
-/// Largest size of the end behind a directory, with 64-bit numbers and a comment.
+/// Largest size of the end of an archive behind its directory, with 64-bit numbers and a comment.
 inline constexpr std::uint64_t kLongestZipEnd = 22 + 65535 + 20 + 56;
 /// `tail`: the last kLongestZipEnd bytes of an archive of `size` bytes, or all. Fails with kInput if it is no archive.
 Result<ZipDirectory> find_zip_directory(std::span<const std::uint8_t> tail, std::uint64_t size);
-/// `bytes`: from the directory's start on; the records' names borrow them. Fails with kInput.
+/// `bytes`: from the directory's start on; the records' names point into them. Fails with kInput.
 Result<std::vector<ZipRecord>> read_zip_directory(std::span<const std::uint8_t> bytes, std::uint64_t count);
 
 inline constexpr std::size_t kZipHeaderSize = 30;
-/// Offset from an entry's header to its contents, from the header's first kZipHeaderSize bytes; 0 if invalid.
+/// Distance from an entry's header to its contents; 0 if invalid. `header`: its first kZipHeaderSize bytes.
 std::uint64_t zip_header_length(std::span<const std::uint8_t> header);
 /// `packed`: as many bytes as the record declares. Fails with kInput for an entry that is encrypted, neither deflated
 /// nor stored, damaged, or impossibly large for its compressed size.
 Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std::span<const std::uint8_t> packed);
 
-/// The names in an archive and their contents, unpacked individually. Borrows the bytes.
+/// Reads entries of an archive individually, by name. Borrows the bytes.
 class ZipReader {
  public:
   /// Fails with kInput if it is no archive, or one of several volumes.

@@ -1,4 +1,4 @@
-// The estimated cost of a set of tiles.
+// Estimates the cost of a set of tiles.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,11 +10,12 @@
 namespace scarp {
 namespace {
 
-/// Limit of the trial's core time; levels of larger tiles are then extrapolated.
+/// Limit of the trial's core time. Coarser levels are then extrapolated.
 constexpr double kMostSeconds = 5;
-/// Largest share of a level's tiles in a trial, so that estimating a small set does not build it.
+/// Largest fraction of a level's tiles in a trial, so that estimating a small set does not build all of it.
 constexpr double kMostShare = 0.25;
-/// Cost of a tile relative to one of the next finer level, which has a quarter of its nodes and most of its triangles.
+/// Cost of a tile relative to a tile of the next finer level, which has a quarter of the nodes and most of the
+/// triangles.
 constexpr double kTimeOfLarger = 2.2, kBytesOfLarger = 1.3;
 /// Seconds per lattice node of a block in addition to its tiles: copies for its tiles, the hash, the reduction.
 constexpr double kSecondsOfNode = 25e-9;
@@ -61,10 +62,10 @@ Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& n
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
 }
 
-/// Measured cost of some tiles of a level.
+/// Measured cost of a level's sampled tiles.
 struct LevelLook {
   double looked_at = 0, made = 0;
-  double reading = 0, making = 0;  ///< seconds: of all tiles examined; of building tiles, without reading
+  double reading = 0, making = 0;  ///< seconds: for all tiles examined; for building tiles, without reading
   double bytes = 0;                ///< bytes of the tiles built
 
   double share() const { return looked_at > 0 ? made / looked_at : 0; }
@@ -117,7 +118,7 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
   const double nodes_of_block = static_cast<double>(side) * static_cast<double>(side);
   const double began = core_seconds();
   double tiles = 0, seconds = 0, bytes = 0;
-  // Cost of one tile of the current level, and the share of tiles that have heights.
+  // Cost of a tile of the current level, and the fraction of tiles with heights.
   double making = 0, size = 0, share = 0, reading = 0;
   for (int z = plan.max_zoom(); z >= plan.block_level && !blocks.empty(); --z) {
     const double left = kMostSeconds - (core_seconds() - began), next = kTimeOfLarger * making;

@@ -29,13 +29,13 @@ struct GlobeSource {
   std::optional<RasterOnPlane> plane;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
-  /// In a stack: the same with small voids filled, used where no source of the stack has a height.
+  /// In a stack: the field with small voids filled, used where no source of the stack has a height.
   std::shared_ptr<const SampleSource> filled;
   std::unique_ptr<NodeSource> filled_samples, filled_raised;
 
   const NodeSource& nodes() const { return raised ? *raised : *samples; }
   const NodeSource& filled_nodes() const { return filled_raised ? *filled_raised : *filled_samples; }
-  /// Bytes of its samples in memory.
+  /// Bytes of the samples in memory.
   std::uint64_t bytes() const {
     const std::uint64_t codes = field.source && field.source->is_in_memory() ? sizeof(std::uint16_t) : 0;
     return field.samples.size() * sizeof(float) +
@@ -77,14 +77,14 @@ Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_s
   return {};
 }
 
-/// `grid`: if nothing, it is set to one that suits the raster.
+/// `grid`: if empty, set to one that suits the raster.
 Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>& mosaic, ReadOptions options,
                                                  const Datum& datum, std::optional<GridKind>& grid) {
   auto source = std::make_unique<GlobeSource>();
   options.crs = "";
   options.default_frame = DefaultFrame::kSource;
   options.heights_in = HeightsIn::kMetres;
-  // The last of a mosaic lies on top.
+  // The last raster of a mosaic is on top.
   const std::string& path = mosaic.back();
   options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
   SCARP_TRY(source->field, open_height_field(path, options));
@@ -95,7 +95,7 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   return source;
 }
 
-/// The stamp of FILE, or of FILE:LAYER; names of files become absolute.
+/// The stamp of FILE, or of FILE:LAYER. Makes the file's name absolute.
 FileStamp stamp_lines(std::string& file) {
   FileStamp stamp = stamp_of(file);
   const std::size_t colon = file.rfind(':');
@@ -105,7 +105,7 @@ FileStamp stamp_lines(std::string& file) {
   return stamp;
 }
 
-/// Its EPSG code, or EPSG:CODE as a placeholder.
+/// The raster's EPSG code, or EPSG:CODE as a placeholder.
 std::string code_of(const RasterInfo& info) { return info.crs.starts_with("EPSG:") ? info.crs : "EPSG:CODE"; }
 
 /// Sources of a stack must share one globe, and a common setting must not contradict any of them.
@@ -169,7 +169,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                               "together first ({}), or take --grid geographic",
                               mosaics[1].front(), mosaics[0].front(),
                               warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
-    // Memory in use is not available to later sources, except a little for windows of files.
+    // Later sources have less memory, but always a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min(source->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
       const GlobeSource& first = impl->sources.empty() ? *source : *impl->sources.front();

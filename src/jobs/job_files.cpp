@@ -1,4 +1,4 @@
-// The files of a tile job: their stamps, changes of them, and the job updated for a change.
+// The files of a tile job: their stamps, detection of changes, and update of the job.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -117,7 +117,7 @@ Result<void> check_rasters(const TileJob& job) {
 }
 
 Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
-  // Coarser levels have steps as coarse or coarser.
+  // Coarser levels have steps at least as coarse.
   const double needed = now.plan.least_quantum, has = earlier.plan.levels.back().quantum;
   if (needed > has) {
     const char* const unit = unit_behind(now.facts.units);

@@ -17,9 +17,9 @@ namespace {
 
 /// Memory of a cached tile in addition to its bytes.
 constexpr std::uint64_t kEntryBytes = 200;
-/// The finest levels, whose tiles are built fast enough on request.
+/// Number of finest levels, whose tiles are built fast enough on request.
 constexpr int kFastLevels = 3;
-/// Four concurrent tiles of the level below the blocks use as much memory as one of the blocks.
+/// Four concurrent tiles of the level below the blocks use as much memory as one block.
 constexpr int kPreparingThreads = 4;
 
 using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
@@ -79,7 +79,7 @@ class PreparedTiles final : public TileSink {
   bool is_full() const { return is_full_; }
 
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override {
-    // A tile with too many bytes is built again; the last one is put.
+    // A tile with too many bytes is built and encoded again; the last bound counts.
     bounds_.with([&](auto& bounds) { bounds[key_of(tile.id)] = tile.bound(); });
     return encode_(tile);
   }
@@ -106,7 +106,7 @@ class PreparedTiles final : public TileSink {
   bool is_full_ = false;
 };
 
-/// Nodes whose reading can be cancelled.
+/// Allows cancelling the reading of nodes.
 class EndableNodes final : public NodeSource {
  public:
   EndableNodes(const NodeSource& nodes, const std::function<bool()>& is_over) : nodes_(nodes), is_over_(is_over) {}

@@ -21,19 +21,19 @@ namespace scarp {
 /// A cached tile.
 struct LiveTile {
   std::vector<std::uint8_t> bytes;
-  /// TerrainTile::bound(). Empty for levels above the blocks until prepare() has built them, since not all nodes were
-  /// examined.
+  /// TerrainTile::bound(). Empty for tiles above the block level until prepare() has built them, since not all nodes
+  /// were examined.
   std::optional<double> bound;
 };
 
-/// The quantized-mesh set of a job, whose tiles are built when they are read. Their bytes equal those of the finished
-/// set. Several threads may read at once.
+/// The quantized-mesh set of a job. Tiles are built when they are read, with the same bytes as in the finished set.
+/// Several threads may read at once.
 class LiveTileSet final : public TileSetReader {
  public:
-  /// Finds the existing tiles. Up to `look_nodes` nodes, all nodes are examined and the tiles are those of the finished
-  /// set. Beyond that, tiles exist wherever the raster may cover them, and those without heights are flat. `cache`:
-  /// bytes for cached tiles. Borrows the nodes. Progress: pass "look". Fails as find_tiles() does, and with kUsage for
-  /// another format.
+  /// Finds the existing tiles. With at most `look_nodes` nodes, all nodes are examined and the tiles are those of the
+  /// finished set. With more nodes, tiles exist wherever the raster may cover them, and are flat without heights.
+  /// `cache`: bytes for cached tiles. Borrows `nodes`. Progress: pass "look". Fails as find_tiles() does, and with
+  /// kUsage for another format.
   static Result<std::unique_ptr<LiveTileSet>> open(const TileJob& job, const NodeSource& nodes, std::uint64_t cache,
                                                    const Run& run = {},
                                                    std::uint64_t look_nodes = std::uint64_t{1} << 28);
@@ -43,7 +43,7 @@ class LiveTileSet final : public TileSetReader {
 
   TileFormat format() const override { return TileFormat::kQuantizedMesh; }
   const std::vector<std::vector<std::uint64_t>>& tiles() const override;
-  /// Only "layer.json", versioned by the job and its rasters.
+  /// Only "layer.json", with a version that depends on the job and its rasters.
   std::vector<std::string> files() const override;
   Result<std::vector<std::uint8_t>> read_tile(TileId id) const override;
   Result<std::vector<std::uint8_t>> read_file(const std::string& name) const override;
@@ -52,10 +52,10 @@ class LiveTileSet final : public TileSetReader {
   /// Memory: up to 300 MB per call for a tile of the block level, less for tiles below.
   Result<std::shared_ptr<const LiveTile>> make(TileId id) const;
 
-  /// Builds the slowest tiles, all except the finest three levels, as make_pyramid() does, and caches them with their
-  /// bounds for make(). Other threads may call make() meanwhile. These tiles use up to half of the cache: when that is
-  /// full, the call ends. Returns true if all were cached. REQUIRES: called once. `is_over`: polled from any thread;
-  /// once true, the call ends with kCancelled. Memory in addition to the cache: 400 MB. Fails as make_pyramid() does.
+  /// Builds the slowest tiles (all but the finest three levels) as make_pyramid() does, and caches them with their
+  /// bounds for make(). Other threads may call make() meanwhile. Ends when these tiles fill half of the cache. Returns
+  /// true if all were cached. REQUIRES: called only once. `is_over`: polled from any thread; once it returns true, the
+  /// call ends with kCancelled. Memory in addition to the cache: 400 MB. Fails as make_pyramid() does.
   Result<bool> prepare(int threads, const std::function<bool()>& is_over);
 
  private:

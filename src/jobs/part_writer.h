@@ -1,4 +1,4 @@
-// Appends blocks to a part file.
+// Appends the blocks of a share to a part file.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,20 @@ struct PackedTile {
 
 class PartWriter {
  public:
-  /// The common prefix of the names of a share's parts.
+  /// The common prefix of all part names of a share.
   static std::string name_of(Shard shard);
-  /// Creates a new file in the folder, which is created if needed. Fails with kOutput.
+  /// Creates a new file in the folder, and the folder if needed. Fails with kOutput.
   static Result<std::unique_ptr<PartWriter>> create(const std::string& folder, Shard shard, const TileJob& job);
   PartWriter(const PartWriter&) = delete;
   PartWriter& operator=(const PartWriter&) = delete;
-  /// Removes a file without records.
+  /// Deletes a file without records.
   ~PartWriter();
 
-  /// True if another process was writing to a part of the share at creation.
+  /// True if another process was writing to a part of the share when this one was created.
   bool has_company() const { return has_company_; }
   /// The block is on disk when this returns. Fails with kOutput.
   Result<void> add(const BlockReport& block, const std::vector<PackedTile>& tiles);
-  /// Records that an existing block has these nodes in the job's sources, too. Fails with kOutput.
+  /// Records that an existing block has `nodes` nodes in the job's sources, too. Fails with kOutput.
   Result<void> confirm(TileId block, std::uint64_t nodes);
 
  private:

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little);
 
-/// No column or row is farther away.
+/// Limit of columns and rows.
 constexpr double kFarthest = 0x1p40;
 
 template <std::size_t N>

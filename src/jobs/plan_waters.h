@@ -1,4 +1,4 @@
-// The water of a plan as JSON.
+// A plan's water as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

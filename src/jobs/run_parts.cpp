@@ -1,4 +1,4 @@
-// Building a share of the blocks into a part, and joining all parts to a set.
+// Builds a share of the blocks into a part, and joins all parts to a set.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -45,9 +45,9 @@ bool touches(const TileGrid& grid, TileId id, const DegreeBox& box) {
                              [&](double turn) { return tile.west + turn <= box.east && tile.east + turn >= box.west; });
 }
 
-/// The blocks of a share: consecutive ones, at about the same cost for all shares.
+/// The consecutive blocks of a share. All shares have about the same cost.
 std::span<const TileId> share_of(const TileJob& job, const std::vector<TileId>& blocks, Shard shard) {
-  std::vector<std::uint64_t> before{0};  // cost before each block, and in all
+  std::vector<std::uint64_t> before{0};  // cost before each block; total cost last
   const bool is_surveyed = job.costs.size() == blocks.size();
   for (std::size_t k = 0; k < blocks.size(); ++k)
     before.push_back(before.back() + (is_surveyed ? job.costs[k] : block_cost(job.plan, blocks[k])));
@@ -90,7 +90,7 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
     part.progress = part_of(run.progress, static_cast<double>(done) / static_cast<double>(cost),
                             static_cast<double>(one) / static_cast<double>(cost));
     done += one;
-    // reads blocks of this share that other processes built meanwhile
+    // finds blocks of this share that other processes built meanwhile
     SCARP_RETURN_IF_ERROR(parts->look_again(shard));
     if (parts->has(block)) {
       ++report.there;
@@ -134,7 +134,7 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
   const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(encoder));
   std::vector<BlockReport> made;
   PartsCost taken;
-  // Most of the time is spent putting the blocks' tiles.
+  // Fraction of the time for writing the blocks' tiles.
   constexpr double kPutting = 0.9;
   Reporter reporter(run.progress);
   for (const TileId block : blocks) {

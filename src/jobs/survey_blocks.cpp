@@ -1,4 +1,4 @@
-// The share of each block that has heights.
+// Determines the fraction of each block that has heights.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -42,7 +42,7 @@ Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run
   parallel_in_order(
       blocks.size(), run.threads,
       [&](std::size_t k, std::size_t) {
-        // Blocks out of the source's reach are not read.
+        // Blocks outside the sources are not read.
         if (block_cost(job.plan, blocks[k]) > 1) found[k] = survey_block(job.plan, blocks[k], nodes);
       },
       [&](std::size_t k) {

@@ -1,9 +1,9 @@
-// Blocks on disk, between the processes that build them and the one that joins them.
+// Stores blocks on disk, from the processes that build them to the process that joins them.
 //
 // File format: "SCARPTIL", version, key of the settings; then records, each with the payload's length, CRC-32 and the
-// payload. That begins with the block's name, the key of the sources, and the hash of its nodes. A payload with no more
-// data confirms that a block of the same nodes in another record is also valid for these sources. All numbers are
-// little-endian.
+// payload. The payload begins with the block's name, the key of the sources, and the hash of the block's nodes. A
+// payload with no more data confirms that another record's block with the same nodes is also valid for these sources.
+// All numbers are little-endian.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   return packer.take();
 }
 
-/// True if a process is writing to it.
+/// True if a process is writing to the file.
 bool is_locked(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return false;

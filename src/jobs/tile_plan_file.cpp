@@ -1,4 +1,4 @@
-// A job of tiles as a file.
+// Stores a tile job as a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -281,7 +281,7 @@ TileJob parse_job(const Json& json) {
   return job;
 }
 
-/// True if each raster is in one mosaic.
+/// True if each raster is in exactly one mosaic.
 bool has_sound_mosaics(const TileJob& job) {
   std::uint64_t rasters = 0;
   for (const std::uint32_t count : job.mosaics) {

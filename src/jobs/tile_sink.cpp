@@ -16,7 +16,7 @@ namespace scarp {
 
 namespace {
 
-/// The encoder of kGlb, with a texture of the image on each tile.
+/// The encoder for kGlb, with a texture of the image on each tile.
 TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
   return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
     SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));

@@ -10,7 +10,7 @@ namespace scarp {
 namespace {
 
 constexpr int kLeastSide = 256;
-/// Largest side of a tile in screen pixels before clients load its children; and of one without children.
+/// Largest side of a texture: a tile's screen pixels before clients load its children; for tiles without children.
 constexpr int kMostSide = 512, kMostLeafSide = 2048;
 
 int choose_side(const GlobeImage& image, const PyramidPlan& plan, TileId id) {
@@ -35,7 +35,7 @@ Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, Im
   for (std::size_t k = 0; k < 3; ++k) ground[k] = srgb_of_linear(kGroundColor[k]);
   SCARP_TRY(auto&& picture, image.read(box, side, ground));
   if (!picture) return std::optional<TileTexture>();
-  // Beyond a pole there is no image.
+  // The image ends at the poles.
   const auto copy_row = [&](int from, int to) {
     const std::ptrdiff_t row = 3 * std::ptrdiff_t{side};
     const auto begin = picture->rgb.begin();

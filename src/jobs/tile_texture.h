@@ -12,9 +12,9 @@
 
 namespace scarp {
 
-/// 256 · 2^k pixels each way: the image's resolution there, up to 512, which clients show until they load the tile's
-/// children, or up to 2048 if it has none. Nothing if the image has no colour there. Fails as GlobeImage::read() and
-/// encode_image().
+/// The texture's sides are the smallest 256 · 2^k pixels that reach the image's resolution: at most 512, which clients
+/// show until they load the tile's children, or 2048 for a tile without children. Nothing if the image has no colour
+/// there. Fails as GlobeImage::read() and encode_image().
 Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
                                                      const PyramidPlan& plan, TileId id);
 

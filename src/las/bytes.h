@@ -1,4 +1,4 @@
-// Little-endian numbers in bytes, and bytes of a file.
+// Little-endian numbers in bytes, and access to the bytes of a file.
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ T load(const std::uint8_t* at) {
   return scarp::bit_cast<T>(bytes);
 }
 
-/// A file, or bytes in memory. Threads read it at once.
+/// A file, or bytes in memory. Several threads may read at once.
 struct Source {
   std::string name;  ///< for messages
   std::uint64_t size = 0;
-  /// False if the bytes cannot be read. REQUIRES: they lie within the size.
+  /// Returns false if the bytes cannot be read. REQUIRES: they lie within `size`.
   FunctionRef<bool(std::uint64_t offset, std::span<std::uint8_t> into)> read;
 
-  /// True if so many bytes lie there.
+  /// True if the source has `bytes` bytes from `offset` on.
   bool holds(std::uint64_t offset, std::uint64_t bytes) const { return offset <= size && bytes <= size - offset; }
 };
 

@@ -1,4 +1,4 @@
-// Decoders of one chunk of a LAZ file, whose points do not depend on other chunks.
+// Decoders of the chunks of a LAZ file, which are independent of each other.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,18 @@ namespace scarp::las {
 /// Receives the points of a chunk in order, many at a time.
 using EmitPoints = FunctionRef<void(std::span<const LasPoint>)>;
 
-/// Keeps its statistics, a megabyte, from chunk to chunk: one for each thread.
+/// Reuses the memory of its statistics, a megabyte, from chunk to chunk. Each thread needs its own decoder.
 class ChunkDecoder {
  public:
   virtual ~ChunkDecoder() = default;
-  /// Returns false if the bytes end before the points do, or cannot be those of a chunk.
+  /// Returns false if the bytes end before the points do, or cannot be a chunk.
   virtual bool decode(std::span<const std::uint8_t> bytes, std::uint64_t count, EmitPoints emit) = 0;
 };
 
-/// The layout of the record is POINT10, GPSTIME11, RGB12, WAVEPACKET13 or BYTE: all of a point is in one stream.
+/// For records of POINT10, GPSTIME11, RGB12, WAVEPACKET13 and BYTE items: one stream has all items of a point.
 std::unique_ptr<ChunkDecoder> make_pointwise_decoder(const LazRecord& record);
-/// POINT14 first: each of its fields is a stream. Those that are not needed are skipped, as are all other items.
+/// For records that begin with POINT14: each of its fields is a stream. Skips streams that are not needed, and all
+/// other items.
 std::unique_ptr<ChunkDecoder> make_layered_decoder(const LazRecord& record);
 
 }  // namespace scarp::las

@@ -16,7 +16,7 @@ struct Page {
 class Octree {
  public:
   Octree(const Source& source, const Header& header, const Extent& extent) : source_(source), extent_(extent) {
-    // A hair beyond the cubes, for the rounding of their sides.
+    // Extends the cubes slightly, for the rounding of their sides.
     hair_ = {header.scale[0], header.scale[1]};
     constexpr std::uint64_t kEmptyNodes = 1 << 16;
     most_entries_ = header.points + kEmptyNodes;
@@ -33,7 +33,7 @@ class Octree {
       pages.pop_back();
       if (page.bytes % kEntryBytes != 0 || !source_.holds(page.offset, page.bytes)) return false;
       entries += page.bytes / kEntryBytes + 1;
-      if (entries > most_entries_) return false;  // pages that name each other never end
+      if (entries > most_entries_) return false;  // pages that refer to each other would never end
       std::vector<std::uint8_t> bytes(page.bytes);
       if (!source_.read(page.offset, bytes)) return false;
       for (std::uint64_t at = 0; at < bytes.size(); at += kEntryBytes) add(bytes.data() + at, pages);

@@ -1,4 +1,4 @@
-// The octree of a COPC file: which chunks may hold points of a rectangle (COPC specification 1.0, copc.io).
+// Uses the octree of a COPC file (COPC specification 1.0, copc.io) to find the chunks outside a rectangle.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace scarp::las {
 
-/// xmin, ymin, xmax, ymax, the ends included.
+/// xmin, ymin, xmax, ymax, inclusive.
 using Extent = std::array<double, 4>;
 
-/// The offsets of chunks that lie outside. Empty for other files, and if the octree cannot be read: the points are
-/// then chosen one by one.
+/// The offsets of chunks outside the extent. Empty for other files, and if the octree cannot be read; points are then
+/// selected one by one.
 std::unordered_set<std::uint64_t> find_chunks_outside(const Source& source, const Header& header, const Extent& extent);
 
 }  // namespace scarp::las

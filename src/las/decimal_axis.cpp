@@ -18,7 +18,7 @@ struct Decimal {
   int exponent = 0;
 };
 
-/// The shortest decimal that the double is the nearest to.
+/// The shortest decimal that rounds to the double.
 Decimal shortest_decimal(double value) {
   const std::string text = fmt::format("{}", value);
   Decimal decimal;
@@ -27,7 +27,7 @@ Decimal shortest_decimal(double value) {
   for (std::size_t k = 0; k < end; ++k) {
     if (text[k] == '.') is_fraction = true;
     if (text[k] < '0' || text[k] > '9') continue;
-    if (decimal.digits >= std::int64_t{100'000'000'000'000'000}) {  // zeros of a large number without an exponent
+    if (decimal.digits >= std::int64_t{100'000'000'000'000'000}) {  // trailing zeros of a large number
       decimal.exponent += is_fraction ? 0 : 1;
       continue;
     }
@@ -76,7 +76,7 @@ DecimalAxis::DecimalAxis(double scale, double offset) : scale_(scale), offset_(o
   way_ = Way::kSmall;
 }
 
-/// The quotient of a numerator of more than 53 bits: that of its leading bits, corrected by the remainder.
+/// The quotient for a numerator of more than 53 bits: the quotient of its leading bits, corrected by the remainder.
 double DecimalAxis::by_large(std::int32_t i) const {
   if (way_ == Way::kDoubles) return std::fma(static_cast<double>(i), scale_, offset_);
   const Int128 numerator = large_scale_ * i + large_offset_;

@@ -1,4 +1,4 @@
-// Coordinates by scale and offset, exactly.
+// Exact conversion of integers to coordinates by scale and offset.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace scarp::las {
 
-/// i · scale + offset, where scale and offset are the decimals that their doubles are the nearest to: the double
-/// nearest to that decimal, so that points keep the lattice of their file. 123456789 · 0.01 is 1234567.89, though no
-/// double is 0.01. A scale or an offset of more than 22 decimals, or beyond 10^25, is the double itself.
+/// The double nearest to i · scale + offset, with scale and offset as the short decimals that their doubles stand for,
+/// so that points stay on the lattice of their file. 123456789 · 0.01 is 1234567.89, though no double is 0.01. A scale
+/// or offset with more than 22 decimals, or beyond 10^25, is used as the double itself.
 class DecimalAxis {
  public:
   /// REQUIRES: both are finite.
@@ -22,7 +22,7 @@ class DecimalAxis {
 
  private:
   enum class Way {
-    kSmall,  ///< all numerators are exact in a double
+    kSmall,  ///< doubles represent all numerators exactly
     kLarge,
     kDoubles,
   };

@@ -23,10 +23,10 @@ enum GeoKey : std::uint16_t {
 
 constexpr std::uint16_t kUserDefined = 32767, kLatitudeAndLongitude = 2;
 
-/// A code of EPSG; 0 for none.
+/// The EPSG code; 0 for none.
 int code_of(std::uint16_t value) { return value >= 1024 && value < kUserDefined ? value : 0; }
 
-/// The vertical CRS for what GeoTIFF's first version had numbers of its own for; else the code.
+/// The vertical CRS for GeoTIFF 1.0's own numbers; else the code.
 int vertical_code_of(std::uint16_t value) {
   switch (value) {
     case 5101:
@@ -71,7 +71,7 @@ bool CrsFacts::is_degrees() const {
 
 void read_geo_keys(CrsFacts& crs) {
   const std::span<const std::uint8_t> directory = crs.directory;
-  constexpr std::size_t kEntry = 8;  // key, where its value lies, count, value
+  constexpr std::size_t kEntry = 8;  // key, location, count, value
   constexpr std::uint16_t kHere = 0, kTexts = 34737;
   if (directory.size() < kEntry) return;
   const std::size_t count =
@@ -92,7 +92,7 @@ void read_geo_keys(CrsFacts& crs) {
     if (key == kVerticalUnits) crs.vertical_unit = code_of(value);
   }
   if (crs.projected != 0) crs.is_geographic = false;
-  // The position's CRS is projected, but not by a code: that of the degrees is another one.
+  // A projected CRS without a code: the code of its degrees is another CRS.
   if (!crs.is_geographic && crs.projected == 0) crs.is_user_defined = crs.is_user_defined || crs.geographic != 0;
 }
 

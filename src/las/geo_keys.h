@@ -8,26 +8,26 @@
 
 namespace scarp::las {
 
-/// Codes of EPSG; 0: none, or one that the user has defined.
+/// The codes are EPSG's; 0: none, or user-defined.
 struct CrsFacts {
   std::string wkt;
   int projected = 0, geographic = 0, vertical = 0;
   int vertical_unit = 0;  ///< 9001: metre, 9002: foot, 9003: US survey foot
   bool is_geographic = false;
-  std::string citation;  ///< its name in words
+  std::string citation;  ///< the CRS's name in words
   bool is_user_defined = false;
-  std::vector<std::uint8_t> directory, doubles, texts;  ///< the records of GeoTIFF's keys
+  std::vector<std::uint8_t> directory, doubles, texts;  ///< the records of GeoTIFF keys
 
-  /// "EPSG:26910+5703", "EPSG:4326", WKT; empty: the file has no CRS that is known by a code or WKT.
+  /// "EPSG:26910+5703", "EPSG:4326", WKT; empty if the file has neither codes nor WKT.
   std::string definition() const;
-  /// By the keys, else by the words of the WKT: x and y are degrees.
+  /// True if x and y are degrees, by the keys, else by the words of the WKT.
   bool is_degrees() const;
 };
 
 /// Reads the keys in the directory.
 void read_geo_keys(CrsFacts& crs);
 
-/// Up to the first zero, without blanks at its ends.
+/// The text up to the first zero byte, without blanks at its ends.
 std::string text_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp::las

@@ -13,7 +13,7 @@ namespace scarp::las {
 namespace {
 
 constexpr std::uint64_t kLegacyBytes = 227, kBytesOf14 = 375;
-constexpr std::size_t kRecordHead = 54, kExtendedRecordHead = 60;  // records of variable length
+constexpr std::size_t kRecordHead = 54, kExtendedRecordHead = 60;  // heads of variable-length records
 
 class HeaderReader {
  public:
@@ -70,7 +70,7 @@ class HeaderReader {
 
   Result<void> check_numbers() {
     const unsigned format = at<std::uint8_t>(104);
-    is_compressed_ = (format & 0xC0) != 0;  // one of both bits, by the version of the compressor
+    is_compressed_ = (format & 0xC0) != 0;  // either bit, depending on the compressor's version
     header_.point_format = format & 0x3F;
     header_.record_bytes = at<std::uint16_t>(105);
     if (header_.point_format >= kFormats)
@@ -116,7 +116,7 @@ class HeaderReader {
     return {};
   }
 
-  /// Behind the points, in version 1.4: only WKT is of interest, and a file without it is as good.
+  /// Reads WKT behind the points, in version 1.4. A file without WKT is accepted.
   Result<void> read_extended_records() {
     if (header_.minor_version < 4 || !header_.crs.wkt.empty()) return {};
     if (!read_into(0, kBytesOf14)) return {};

@@ -21,13 +21,13 @@ struct Header {
   std::uint16_t record_bytes = 0;
   std::uint64_t points = 0, points_offset = 0;
   std::array<double, 3> scale{}, offset{};
-  /// The box of the points, as the header has it.
+  /// The box of the points, according to the header.
   std::array<double, 3> least{}, most{};
   std::optional<LazRecord> laz;  ///< nothing: the points are not compressed
   CrsFacts crs;
 };
 
-/// Fails with kInput for everything that a reader of the points could stumble over.
+/// Fails with kInput for any fault that could break the reading of points.
 Result<Header> read_header(const Source& source);
 
 }  // namespace scarp::las

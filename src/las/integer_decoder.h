@@ -1,5 +1,5 @@
-// Integers of LAZ files: the difference to a prediction, as the number k of its bits, and then these; the LASzip
-// specification's integer compressor.
+// Integers of LAZ files, by the integer compressor of the LASzip specification: the number k of bits of the difference
+// to a prediction, then these bits.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace scarp::las {
 
-/// Integers of kBits bits, predicted, in one of kContexts contexts, each with statistics of its own.
+/// Decodes predicted integers of kBits bits. Each of kContexts contexts has its own statistics.
 template <unsigned kBits, unsigned kContexts>
 class IntegerDecoder {
  public:
@@ -27,7 +27,7 @@ class IntegerDecoder {
     return static_cast<std::int32_t>(value);
   }
 
-  /// The number of bits of the last difference: context for others.
+  /// The number of bits of the last difference, a context for other fields.
   unsigned k() const { return k_; }
 
  private:

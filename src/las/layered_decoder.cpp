@@ -1,6 +1,6 @@
-// Points of formats 6 to 10: the LASzip specification's POINT14, versions 3 and 4. A chunk is its first point, the
-// number of its points, the sizes of the layers, and these: a stream for each field. Only the first four layers are
-// read, which have places, returns, classes and flags; a layer without bytes has no change.
+// Points of formats 6 to 10: the LASzip specification's POINT14, versions 3 and 4. A chunk contains its first point,
+// its number of points, the sizes of the layers, and the layers: a stream for each field. Only the first four layers
+// are read, for positions, returns, classes and flags. In a layer without bytes, the field never changes.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct Channel {
   bool is_begun = false;
   std::int32_t x = 0, y = 0, z = 0;
   std::uint8_t r = 0, n = 0, number = 0;
-  std::uint8_t flags = 0;  ///< 0 to 3: those of the class, 4: direction of the scan, 5: edge of the flight line
+  std::uint8_t flags = 0;  ///< bits 0 to 3: classification flags, 4: scan direction, 5: edge of the flight line
   bool has_new_time = false;
 
   std::array<SymbolModel<128>, 8> changes;
@@ -51,7 +51,7 @@ struct Channel {
     flags = other.flags;
   }
 
-  /// Behind the fields of the last point.
+  /// Call it after setting the fields of the last point.
   void begin() {
     is_begun = true;
     has_new_time = false;
@@ -73,7 +73,7 @@ struct Channel {
   LasPoint point() const { return extended_point(x, y, z, static_cast<unsigned>(n) << 4 | r, flags & 15U, number); }
 };
 
-/// The streams that are read; nothing for those without bytes.
+/// The streams that are read; nothing if without bytes.
 struct Layers {
   RangeDecoder places;
   std::optional<RangeDecoder> heights, classes, flags;
@@ -135,7 +135,7 @@ class LayeredDecoder final : public ChunkDecoder {
     channel.begin();
   }
 
-  /// Nothing if they do not lie in the chunk.
+  /// Nothing if they exceed the chunk.
   std::optional<Layers> find_layers(std::span<const std::uint8_t> bytes) const {
     const std::uint64_t sizes_at = first_bytes_ + 4;
     std::uint64_t at = sizes_at + 4 * layer_count_;
@@ -151,7 +151,7 @@ class LayeredDecoder final : public ChunkDecoder {
     return Layers{*read[0], read[1], read[2], read[3]};
   }
 
-  /// A channel that has not been begun begins with the last point of another.
+  /// A new channel begins with the last point of the previous one.
   Channel& switch_channel(RangeDecoder& places) {
     const Channel& last = channels_[now_];
     now_ = (now_ + places.decode(channels_[now_].channel) + 1) & 3;

@@ -15,7 +15,7 @@
 namespace scarp::las {
 namespace {
 
-/// Versions of the compression of an item, and its size; 0: any.
+/// Compression versions of an item, and its size; 0: any.
 struct ItemRow {
   LazItemType type;
   bool is_layered;
@@ -36,7 +36,7 @@ const ItemRow* find_row(LazItemType type) {
   return row != std::end(kItems) ? row : nullptr;
 }
 
-/// Why the item cannot be read; empty if it can.
+/// The reason why the item cannot be read; empty if it can.
 std::string find_fault(const LazItem& item, bool is_layered) {
   const ItemRow* const row = find_row(item.type);
   if (row == nullptr)
@@ -54,7 +54,7 @@ std::string find_fault(const LazItem& item, bool is_layered) {
 
 constexpr std::size_t kFixedBytes = 34, kItemBytes = 6;
 
-/// Sizes of chunks by the table's stream.
+/// Reads sizes of chunks from the table's stream.
 class TableReader {
  public:
   TableReader(const LazRecord& record, std::span<const std::uint8_t> bytes) : record_(record), decoder_(bytes) {}
@@ -81,7 +81,7 @@ std::optional<std::vector<std::uint8_t>> read_bytes(const Source& source, std::u
   return bytes;
 }
 
-/// A writer that could not go back has put the table's place at the end of the file.
+/// Finds the table. Writers that cannot seek store its offset at the end of the file.
 std::optional<std::uint64_t> find_table(const Source& source, std::uint64_t offset) {
   for (const std::uint64_t place : {offset, source.size - 8}) {
     const auto bytes = read_bytes(source, place, 8);
@@ -93,7 +93,7 @@ std::optional<std::uint64_t> find_table(const Source& source, std::uint64_t offs
   return std::nullopt;
 }
 
-/// Fails where the chunks do not fill the bytes up to the table and the points of the header.
+/// Fails if the chunks do not fill the bytes up to the table, or do not have the header's number of points.
 Result<std::vector<LazChunk>> lay_out(TableReader& reader, std::uint64_t count, std::uint64_t begin, std::uint64_t end,
                                       std::uint64_t least, std::uint64_t points, const std::string& name) {
   const auto damaged = [&](const std::string& how) {
@@ -179,7 +179,7 @@ Result<std::vector<LazChunk>> read_chunk_table(const Source& source, const LazRe
   if (!head) return refuse(name, "its table of chunks cannot be read");
   const std::uint64_t count = load<std::uint32_t>(head->data() + 4);
   if (load<std::uint32_t>(head->data()) != 0) return refuse(name, "its table of chunks is of an unknown version");
-  // A chunk has its first point as it is, so there are no more of them than fit; nor is its entry longer than 16 bytes.
+  // A chunk's first point is uncompressed, which limits the number of chunks. An entry has at most 16 bytes.
   const std::uint64_t most = (*table - offset - 8) / record.point_bytes();
   if (count > most)
     return refuse(name,

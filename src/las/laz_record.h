@@ -11,7 +11,7 @@
 
 namespace scarp::las {
 
-/// The fields of a point that are compressed together, by their numbers in the file.
+/// A group of a point's fields that are compressed together. The values are the numbers in the file.
 enum class LazItemType : std::uint16_t {
   kByte = 0,
   kPoint10 = 6,
@@ -33,15 +33,15 @@ struct LazItem {
 struct LazRecord {
   bool is_layered = false;
   bool has_chunks = false;
-  std::uint32_t chunk_points = 0;  ///< 2^32 - 1: the table of chunks has it for each
+  std::uint32_t chunk_points = 0;  ///< 2^32 - 1: given per chunk in the table of chunks
   std::vector<LazItem> items;
 
   bool has_varying_chunks() const { return chunk_points == 0xFFFFFFFFU; }
-  /// Bytes of the fields of all items.
+  /// Total bytes of all items.
   std::uint64_t point_bytes() const;
 };
 
-/// Fails with kInput for what this reader does not know, or the record does not allow.
+/// Fails with kInput for an invalid record, and for features that this reader does not support.
 Result<LazRecord> parse_laz_record(std::span<const std::uint8_t> bytes, unsigned point_format,
                                    std::uint16_t record_bytes, const std::string& name);
 
@@ -50,7 +50,7 @@ struct LazChunk {
   std::uint64_t points = 0;
 };
 
-/// The chunks of `points` points that begin at the offset. Fails with kInput where the table does not describe them.
+/// The chunks of the `points` points that begin at `offset`. Fails with kInput if the table does not describe them.
 Result<std::vector<LazChunk>> read_chunk_table(const Source& source, const LazRecord& record, std::uint64_t offset,
                                                std::uint64_t points);
 

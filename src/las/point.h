@@ -1,4 +1,4 @@
-// A point of a LAS file, as far as it is needed, and the layouts of its records.
+// The needed fields of a LAS file's point, and the layouts of its records.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@ namespace scarp::las {
 struct LasPoint {
   std::int32_t x = 0, y = 0, z = 0;
   std::uint8_t number = 0;         ///< its class: 2 for ground
-  std::uint8_t return_number = 0;  ///< 1 for the first of a pulse; 0 where the file has none
-  std::uint8_t return_count = 0;   ///< the pulse has so many
+  std::uint8_t return_number = 0;  ///< 1 for the first of a pulse; 0 if the file has none
+  std::uint8_t return_count = 0;   ///< number of returns of the pulse
   bool is_withheld = false;        ///< the file's producer wants it to be treated as deleted
   bool is_overlap = false;         ///< in the overlap of flight lines
 };
 
-/// Formats 6 to 10, with returns, flags and class in wider fields.
+/// True for formats 6 to 10, with wider fields for returns, flags and class.
 constexpr bool is_extended(unsigned format) { return format >= 6; }
 
 constexpr unsigned kFormats = 11;
-/// Bytes of the fields of each format; records may have more, which are the user's.
+/// Bytes of the fields of each format; records may have additional user-defined bytes.
 constexpr std::array<std::uint16_t, kFormats> kRecordBytes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
 inline LasPoint legacy_point(std::int32_t x, std::int32_t y, std::int32_t z, unsigned returns, unsigned class_byte) {

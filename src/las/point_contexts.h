@@ -1,5 +1,4 @@
-// The contexts by which both decoders of points distinguish their statistics: the tables and the running median of the
-// LASzip specification.
+// The contexts of the statistics in both point decoders: the tables and the running median of the LASzip specification.
 #pragma once
 
 #include <array>
@@ -12,7 +11,8 @@
 
 namespace scarp::las {
 
-/// The median of about the last five values: a value replaces one at the end that the last one left crowded.
+/// The median of about the last five values. A new value replaces the lowest or the highest, depending on the previous
+/// values.
 class RunningMedian {
  public:
   std::int32_t get() const { return sorted_[2]; }
@@ -26,7 +26,7 @@ class RunningMedian {
   }
 
  private:
-  /// Below the median: of five values that stay sorted, either the highest or the lowest is dropped.
+  /// Inserts a value below the median. The five values stay sorted; the highest or the lowest is dropped.
   void insert_low(std::int32_t value) {
     if (!drops_highest_) {
       replace_lowest(value);
@@ -66,7 +66,7 @@ class RunningMedian {
   bool drops_highest_ = true;
 };
 
-/// Models that are begun when they are first needed: many contexts never are.
+/// Initializes each model on first use, since many contexts never occur.
 template <unsigned kSymbols, std::size_t kCount>
 class ModelSet {
  public:
@@ -108,7 +108,7 @@ inline constexpr auto kExtendedReturnContexts = [] {
   return contexts;
 }();
 
-/// How far a return is from the last one of its pulse.
+/// Distance of a return from the last one of its pulse, at most 7.
 inline unsigned return_level(unsigned n, unsigned r) {
   const int level = std::abs(static_cast<int>(n) - static_cast<int>(r));
   return level < 7 ? static_cast<unsigned>(level) : 7;

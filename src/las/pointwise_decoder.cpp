@@ -1,6 +1,6 @@
 // Points of formats 0 to 5: the LASzip specification's POINT10, GPSTIME11, RGB12, WAVEPACKET13 and BYTE, in versions 1
-// and 2. All items of a point share a stream, so those that are not needed are decoded, too, but only as far as the way
-// through the stream depends on them: no times, colours and intensities.
+// and 2. All items of a point share a stream, so unneeded items are decoded, too, but only to advance in the stream:
+// times, colours and intensities are not computed.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -19,9 +19,9 @@
 namespace scarp::las {
 namespace {
 
-constexpr unsigned kLeadingBits = 0xFFFFFFFEU;  // contexts of differences distinguish every second number of bits
+constexpr unsigned kLeadingBits = 0xFFFFFFFEU;  // contexts of differences do not distinguish bit counts 2k and 2k + 1
 
-/// A part of a point behind its position.
+/// An item of a point behind the item with its position.
 class Item {
  public:
   virtual ~Item() = default;
@@ -29,7 +29,7 @@ class Item {
   virtual void skip(RangeDecoder& decoder) = 0;
 };
 
-/// The fields that positions, classes and returns are in.
+/// The item with positions, classes and returns.
 class PositionItem {
  public:
   virtual ~PositionItem() = default;
@@ -38,7 +38,7 @@ class PositionItem {
   virtual LasPoint decode(RangeDecoder& decoder) = 0;
 };
 
-/// Values of the last point that the next one's contexts depend on.
+/// Values of the last point that determine contexts for the next point.
 struct LastPoint {
   std::int32_t x = 0, y = 0, z = 0;
   std::uint8_t returns = 0, class_byte = 0, user_data = 0;
@@ -117,7 +117,7 @@ class Point10V2 final : public PositionItem {
   std::array<std::int32_t, 8> heights_{};
 };
 
-/// The median of the last three.
+/// The median of the last three values.
 class LastThree {
  public:
   std::int32_t median() const {
@@ -183,7 +183,7 @@ class Point10V1 final : public PositionItem {
   LastThree x_ways_, y_ways_;
 };
 
-/// Difference of times that is no multiple that the stream has a symbol for: after four in a row it is the new unit.
+/// The unit of time differences. After four differences that are no encodable multiple, the last becomes the unit.
 struct TimeUnit {
   std::int32_t difference = 0;
   int extremes = 0;
@@ -242,7 +242,7 @@ class GpsTime11V1 final : public Item {
   IntegerDecoder<32, 6> time_;
 };
 
-/// Four sequences of times, each with its unit: flight lines whose points alternate.
+/// Four sequences of times, each with its unit, for alternating points of flight lines.
 class GpsTime11V2 final : public Item {
  public:
   void begin() override {
@@ -265,7 +265,7 @@ class GpsTime11V2 final : public Item {
   static constexpr int kMost = 500, kLeast = -10;
   static constexpr unsigned kUnchanged = kMost - kLeast + 1, kNewSequence = kUnchanged + 1, kFactors = kUnchanged + 5;
 
-  /// Returns how many sequences further the time belongs; 0 if it has been decoded.
+  /// Returns the distance to the time's sequence; 0 if the time has been decoded.
   unsigned skip_first(RangeDecoder& decoder) {
     const unsigned kind = decoder.decode(first_);
     if (kind > 2) return kind - 2;

@@ -2,7 +2,7 @@
 // Labs report HPL-2004-76), with 32-bit intervals and adaptive models, used as in M. Isenburg's "LASzip: lossless
 // compression of LiDAR data" (PE&RS 79(2), 2013) and the LASzip specification (R13).
 //
-// Bytes beyond the end count as zeros and are counted: whoever decodes asks is_exhausted() once a point.
+// Bytes beyond the end are read as zeros and counted. Callers check is_exhausted() once per point.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 
 namespace scarp::las {
 
-/// Adaptive probabilities of `symbols` symbols, at most kMost of them. Empty until it is begun.
+/// Adaptive probabilities of up to kMost symbols. Empty until begin() is called.
 template <unsigned kMost>
 class SymbolModel {
  public:
   bool is_begun() const { return symbols_ != 0; }
   void forget() { symbols_ = 0; }
 
-  /// All symbols are alike.
+  /// Gives all symbols equal probabilities.
   void begin(unsigned symbols) {
     symbols_ = symbols;
     table_bits_ = 0;
@@ -44,7 +44,7 @@ class SymbolModel {
     if (--until_update_ == 0) update();
   }
 
-  /// The cumulative distribution by the counts, and the table of where to search in it.
+  /// Recomputes the cumulative distribution from the counts, and the table that narrows the search in it.
   [[gnu::noinline]] void update() {
     total_ += cycle_;
     if (total_ > 1U << kShift) {
@@ -113,7 +113,7 @@ class RangeDecoder {
     value_ = std::min(value_, length_ - 1);  // no encoder writes more
   }
 
-  /// True once the bytes have ended before what was decoded. Encoders may omit the last few, which are zeros.
+  /// True once more has been decoded than the bytes hold. Encoders may omit the last few bytes if they are zeros.
   bool is_exhausted() const { return missing_ > 4; }
 
   template <unsigned kMost>
@@ -151,7 +151,7 @@ class RangeDecoder {
     return bit;
   }
 
-  /// Bits that are all alike. REQUIRES: 1 <= count <= 32.
+  /// Decodes bits of equal probability. REQUIRES: 1 <= count <= 32.
   std::uint32_t decode_bits(unsigned count) {
     if (count <= 19) return decode_few_bits(count);
     const std::uint32_t low = decode_few_bits(16) & 0xFFFF;

@@ -19,7 +19,7 @@
 namespace scarp::las {
 namespace {
 
-/// A chunk of a LAS file: about a megabyte.
+/// Size of a chunk of a LAS file: about a megabyte.
 constexpr std::uint64_t kChunkRecords = 32768;
 
 class Chooser {
@@ -47,7 +47,7 @@ class Chooser {
     const auto& [west, south, east, north] = *selection_.extent;
     return !(x >= west && x <= east && y >= south && y <= north);
   }
-  /// The count to which a point inside belongs.
+  /// The count for a point inside the extent.
   std::uint64_t& reason(const LasPoint& point, Tally& tally) const {
     if (point.is_withheld && !selection_.has_withheld) return tally.withheld;
     ++tally.classes[point.number];
@@ -56,7 +56,7 @@ class Chooser {
     if (!is_wanted_return(point)) return tally.other_returns;
     return tally.used;
   }
-  /// Files without numbers of returns have 0 of 0, which counts as the only one.
+  /// Files without numbers of returns have return 0 of 0, which is an only return.
   bool is_wanted_return(const LasPoint& point) const {
     switch (selection_.returns) {
       case Returns::kAll:
@@ -75,7 +75,7 @@ class Chooser {
   std::array<DecimalAxis, 3> axes_;
 };
 
-/// The chunks of a file whose points are not compressed.
+/// Divides a file with uncompressed points into chunks.
 std::vector<LazChunk> cut_records(const Header& header) {
   std::vector<LazChunk> chunks;
   for (std::uint64_t first = 0; first < header.points; first += kChunkRecords) {
@@ -111,7 +111,7 @@ std::unique_ptr<ChunkDecoder> make_decoder(const Header& header) {
   return header.laz->is_layered ? make_layered_decoder(*header.laz) : make_pointwise_decoder(*header.laz);
 }
 
-/// Memory that a thread keeps from chunk to chunk.
+/// Memory that a thread reuses from chunk to chunk.
 struct Worker {
   std::unique_ptr<ChunkDecoder> decoder;
   std::vector<std::uint8_t> bytes;
@@ -161,7 +161,8 @@ class PointReader {
     });
   }
 
-  /// Only as many as bytes: points in fewer than a byte each are rare, and the number of points may be a lie.
+  /// Reserves at most one point per byte: fewer bytes per point are rare, and the header's number of points may be
+  /// false.
   static void reserve(std::uint64_t count, std::uint64_t bytes, Points& points) {
     for (auto* values : {&points.x, &points.y, &points.z}) values->reserve(std::min(count, bytes));
   }

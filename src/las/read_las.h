@@ -1,4 +1,4 @@
-// Points of LAS and LAZ files: those that a selection wants, in the order of the file.
+// Reads the selected points of LAS and LAZ files, in the order of the file.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ struct Selection {
   std::optional<Extent> extent = std::nullopt;
 };
 
-/// Every point of the file counts once: as used, or by the first reason that omits it, in this order.
+/// Every point of the file is counted once: as used, or for the first reason to omit it, in the order of the fields.
 struct Tally {
-  std::array<std::uint64_t, 256> classes{};  ///< all points but those outside or withheld, used or not
+  std::array<std::uint64_t, 256> classes{};  ///< all points, used or not, except those outside or withheld
   std::uint64_t outside = 0, withheld = 0, other_classes = 0, overlap = 0, other_returns = 0, used = 0;
 
   void add(const Tally& other);
@@ -37,9 +37,10 @@ struct Points {
   Tally tally;
 };
 
-/// The points on `threads` threads (0: all cores), which do not change the result. Memory for them grows as they are
-/// decoded, whatever the header announces; besides, each thread has about a megabyte, and the points of a chunk. Fails
-/// with kInput for a file that is damaged or cut off, and with kCancelled. REQUIRES: the header of that source.
+/// Reads the points on `run.threads` threads (0: all cores), whose number does not change the result. The memory for
+/// points grows as they are decoded, whatever the header announces. In addition, each thread needs about a megabyte and
+/// the points of a chunk. Fails with kInput for a damaged or truncated file, and with kCancelled. REQUIRES: the header
+/// of that source.
 Result<Points> read_points(const Source& source, const Header& header, const Selection& selection, const Run& run);
 
 }  // namespace scarp::las

@@ -23,7 +23,7 @@ PathVertex between(const PathVertex& a, const PathVertex& b, double at) {
   return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
 }
 
-/// Narrows [begin, end] to where from + t · span lies in [least, most]. False if empty.
+/// Narrows [begin, end] to the t with from + t · span in [least, most]. Returns false if there are none.
 bool narrow(double from, double span, double least, double most, double& begin, double& end) {
   if (span == 0) return from >= least && from <= most;
   const double a = (least - from) / span, b = (most - from) / span;
@@ -32,7 +32,7 @@ bool narrow(double from, double span, double least, double most, double& begin, 
   return begin <= end;
 }
 
-/// Lines in steps, clipped roughly a sample outside the raster so that every coordinate fits; arrange() clips the rest.
+/// Lines in steps, clipped about a sample outside the raster so that every coordinate fits. arrange() clips exactly.
 class LatticeLines {
  public:
   LatticeLines(std::int32_t cols, std::int32_t rows) : most_col_(cols), most_row_(rows) {}
@@ -75,7 +75,7 @@ class LatticeLines {
     return std::isnan(z[0]) && std::isnan(z[1]);
   }
   /// Calls visit(part, point, height, climb) for each point of the parts [from, to) that has a height. climb: the
-  /// change of height in a step, the larger one of the adjacent segments.
+  /// larger change of height per step in the adjacent segments.
   template <class Visit>
   void visit_points(std::uint32_t from, std::uint32_t to, Visit&& visit) const {
     for (std::uint32_t part = from; part < to; ++part) {
@@ -86,7 +86,7 @@ class LatticeLines {
       }
     }
   }
-  /// The line's change of height in a step at a stop; 0 where it is soft.
+  /// The line's change of height per step at a stop; 0 where it is soft.
   double climb_at(std::uint32_t part, const Arrangement::Stop& stop) const {
     return climbs_[parts_.begins[part] + stop.segment];
   }
@@ -100,7 +100,7 @@ class LatticeLines {
     heights_.push_back(v.z);
     climbs_.push_back(0);
   }
-  /// A cliff between two vertices at one lattice point counts as a conflict instead.
+  /// The change of height per step; 0 for two vertices at one lattice point, whose heights may conflict instead.
   static double climb(const PathVertex& a, const PathVertex& b) {
     const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
@@ -116,7 +116,7 @@ class LatticeLines {
   double most_col_, most_row_;
   Polylines parts_;
   std::vector<double> heights_;       ///< heights of the parts' points
-  std::vector<double> climbs_;        ///< in a step, from each point to the next
+  std::vector<double> climbs_;        ///< change per step, from each point to the next
   std::vector<std::uint32_t> lines_;  ///< lines of the parts
   std::uint32_t line_ = 0;
   std::vector<Point> part_;  ///< the part being built
@@ -137,7 +137,7 @@ struct Claims {
   std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; `opponent` differs in height
   std::uint32_t count = 0;                          ///< distinct heights per line, summed up
   bool are_opposed = false;
-  bool yield = false;  ///< they belong to lines that yield
+  bool yield = false;  ///< the heights belong to lines that yield
   double first_height = 0, first_tolerance = 0, last_height = 0, opposed_height = 0;
   double sum = 0, highest = 0;
   double climb = 0;  ///< change of the raster in a step
@@ -171,7 +171,7 @@ struct Claims {
   }
 };
 
-/// The change of the raster in a step, in the cell of a point.
+/// The change of the raster per step, in the cell of a point.
 double climb_of(const LineSamples& samples, Point point) {
   const std::int32_t col = std::min(point.x / kLatticeSteps, samples.cols() - 2),
                      row = std::min(point.y / kLatticeSteps, samples.rows() - 2);
@@ -194,7 +194,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
     Claims& at = claims[point];
     const std::uint32_t line = lattice.line_of(part);
-    // Walls change no sample, even if rounding leads one over it, and conflict with no line.
+    // Walls change no sample, even if rounding moves a wall onto one, and conflict with no line.
     const Point p = points[point];
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (is_wall(lines[line]) && (is_sample || at.count > 0)) return;
@@ -269,7 +269,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
 /// True for a line that is inserted first but need not remain.
 bool is_start(const Line& line) { return is_wall(line) || line.kind == LineKind::kRidge; }
 
-/// By edge: true if a line other than a start, or the outline, runs there. Empty without starts.
+/// By edge: true if the outline, or a line that is no start, runs there. Empty without starts.
 std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
   std::vector<bool> is_held;
   if (std::none_of(lines.begin(), lines.end(), is_start)) return is_held;

@@ -25,13 +25,13 @@ struct Breaklines {
   /// Vertices of the lines within the raster's rectangle and of its outline, in raster order, in kLatticeSteps of a
   /// sample.
   std::vector<Point> points;
-  /// The height of each point: that of the hard lines through it, otherwise the raster's. The raster is bilinear in a
-  /// cell of four heights and a plane in one of three. In other cells it is the mean of the valid corners with bilinear
-  /// weights, NaN if they have no weight. On a sample it is the sample.
+  /// The height of each point: the height of the hard lines through it, otherwise the raster's. The raster is bilinear
+  /// in a cell of four heights and a plane in one of three. In other cells its height is the mean of the valid corners
+  /// with bilinear weights, or NaN if they have no weight. On a sample it is the sample.
   std::vector<float> heights;
   std::vector<bool> is_hard;  ///< for each point: lines determine its height
   std::vector<Arrangement::Edge> edges;
-  std::vector<bool> is_held;  ///< for each edge: true if it does not consist of starts only; EMPTY: no starts
+  std::vector<bool> is_held;  ///< for each edge: true unless only starts run there; EMPTY: no starts
 
   std::uint64_t outside = 0;  ///< lines with no part inside
 
@@ -51,31 +51,31 @@ struct Breaklines {
 /// True for a line detected in the raster, which is inserted before refinement.
 bool is_inserted_first(const Line& line);
 
-/// Snaps lines to the lattice of a raster. A vertex of a line moves by at most half a step, 1/512 sample; its segments
+/// Snaps lines to the lattice of a raster. A vertex of a line moves by at most half a step, 1/512 sample. Its segments
 /// move by at most one and a half steps. `affine` maps samples to the coordinates of the lines, as Frame::affine does;
-/// `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
+/// `outline` is the result of trace_outline(), not simplified. Outline and rectangle are the rigid edges.
 ///
-/// Along a hard line heights are interpolated between vertices; between a vertex with a height and one without, the
-/// line is soft. The lattice moves lines by up to two steps. So two hard lines do not conflict if their heights differ
-/// by at most the change of either, or of the raster in that cell, within two steps, plus the rounding of float32. Then
-/// the height of the first given line is used, as in kFirst.
+/// Along a hard line, heights are interpolated between vertices. The line is soft between a vertex with a height and
+/// one without. The lattice moves lines by up to two steps. Some difference of height between two hard lines is thus no
+/// conflict: the change of either line, or of the raster in that cell, within two steps, plus the rounding of float32.
+/// Then the height of the first given line is used, as in kFirst.
 ///
 /// Fails with kInput where hard lines conflict (kError: names both and the place in map coordinates), and for
-/// coordinates too large for the raster's precision; with kUsage for a raster of more than 2^30 / kLatticeSteps samples
-/// a side. REQUIRES: lines as read_lines() returns them; the affine map is invertible. Cost: as arrange(), plus a visit
-/// to each point of each hard line (with chains: of each line), n²/2 for n overlapping lines.
+/// coordinates too large for the raster's precision. Fails with kUsage for a raster of more than 2^30 / kLatticeSteps
+/// samples a side. REQUIRES: lines as read_lines() returns them; the affine map is invertible. Cost: as arrange(), plus
+/// a visit to each point of each hard line (with chains: of each line), n²/2 for n overlapping lines.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
-/// The same, reading samples near lines only. `rigid`: edges outside the rectangle, in kLatticeSteps: the outline
+/// The same, but reads only samples near lines. `rigid`: edges in kLatticeSteps, without the rectangle: the outline
 /// wherever lines pass, and all other edges at which lines are cut.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
                                     bool with_chains);
 
-/// The lines clipped to the raster and one sample around it, in kLatticeSteps. Fails with kInput for too large
-/// coordinates.
+/// The lines clipped to the raster and one sample around it, in kLatticeSteps. Fails with kInput if coordinates are too
+/// large.
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows);
 

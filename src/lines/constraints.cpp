@@ -27,7 +27,7 @@ bool is_in_domain(const Triangulation& tin, const Triangulation::Location& locat
   return std::any_of(star.begin(), star.end(), [&](Triangle t) { return !tin.is_outside(t); });
 }
 
-/// Indices of points along Morton's curve, which keeps successive searches in a triangulation short.
+/// Indices of points in Morton order, which shortens successive searches in a triangulation.
 std::vector<std::uint32_t> nearby_order(const std::vector<Point>& points) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   keys.reserve(points.size());

@@ -1,4 +1,4 @@
-// Constraints: lines inserted into the triangulation after refinement, which then continues around them.
+// Lines inserted into the triangulation after refinement, which then continues around them.
 #pragma once
 
 #include <array>
@@ -21,22 +21,22 @@ struct ConstraintGraph {
   std::vector<float> heights;                       ///< heights of the points; the height of a sample has precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
   std::vector<std::uint8_t> is_shared;  ///< by point: 1 if it is also inserted outside the domain; EMPTY: none is
-  std::vector<std::uint8_t> is_start;   ///< by edge: 1 if the final mesh need not contain it; EMPTY: all are kept
+  std::vector<std::uint8_t> is_start;   ///< by edge: 1 if the final mesh need not contain it; EMPTY: all are permanent
   bool is_inserted_first = false;       ///< before the surface is refined
-  std::optional<SurfaceCut> cut;        ///< nothing: no cut
+  std::optional<SurfaceCut> cut;        ///< none: no cut
 };
 
 /// A triangulation with constraints.
 class ConstrainedMesh {
  public:
   /// Converts the points of `tin` from samples to kLatticeSteps and inserts the graph's edges as chains of constrained
-  /// edges. Then marks the cut-away part as outside. Points outside the domain, except shared ones, are omitted with
+  /// edges. Then marks the removed part as outside. Points outside the domain, except shared ones, are omitted with
   /// their edges. `tin` and the raster must outlive the result; no other code may change them. Fails with kInternal
   /// where an edge crosses a constrained one. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges
   /// cross constrained edges of `tin` only in points of the graph.
   static Result<ConstrainedMesh> insert(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
-  /// False if a cut leaves no surface.
+  /// False if a cut removes all surface.
   bool has_surface() const { return has_surface_; }
   /// Changed triangles, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
@@ -44,8 +44,8 @@ class ConstrainedMesh {
   void release_starts(Triangulation& tin);
 
   const LatticeHeights& heights() const { return heights_; }
-  /// The lattice of all current vertices of `tin`: heights, and which vertices the graph still fixes. With several
-  /// threads the samples must be a raster, not rows.
+  /// The lattice of all current vertices of `tin`: their heights, and the vertices that the graph still fixes. Several
+  /// threads require that the samples are a raster, not rows.
   VertexLattice lattice(int threads = 1) const;
 
  private:

@@ -95,7 +95,7 @@ class CutAway {
     }
   }
 
-  /// True if the part remains: decided by its walls; else by a sample in it that is on no wall; else by one triangle.
+  /// True if the part remains. Its walls decide; without walls, a sample in it that is on no wall; else one triangle.
   bool stays() const {
     if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
     for (const Triangle t : part_) {
@@ -108,7 +108,7 @@ class CutAway {
     return holds_centre(part_.front());
   }
 
-  /// By the parity of outline edges to the left of the triangle's centre.
+  /// Counts outline edges to the left of the triangle's centre; an odd count is inside.
   bool holds_centre(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     const Int128 x = Int128{a.x} + b.x + c.x, y = Int128{a.y} + b.y + c.y;
@@ -116,7 +116,7 @@ class CutAway {
     for (auto [p, q] : cut_.outline) {
       if (p.y > q.y) std::swap(p, q);
       if (Int128{3} * p.y > y || Int128{3} * q.y <= y) continue;
-      // Left of the centre: the centre is on the negative side of an edge that runs down the rows.
+      // An edge is left of the centre if it runs down the rows and the centre is on its negative side.
       const Int128 side = (Int128{q.x} - p.x) * (y - Int128{3} * p.y) - (Int128{q.y} - p.y) * (x - Int128{3} * p.x);
       is_within = is_within != (side < 0);
     }

@@ -25,8 +25,8 @@ struct SurfaceCut {
 /// The error message if nothing remains.
 inline constexpr const char* kNothingInCutline = "no part of the raster's surface lies in the cutline";
 
-/// Marks the triangles that a cut removes as outside. `tin`: in kLatticeSteps; `vertices`: vertex of each point of the
-/// graph, kNone if absent. Returns true if something remains. REQUIRES: walls whose ends are in `tin` are chains of
+/// Marks the triangles that a cut removes as outside. `tin` is in kLatticeSteps. `vertices`: vertex of each point of
+/// the graph, kNone if absent. Returns true if something remains. REQUIRES: walls with both ends in `tin` are chains of
 /// constrained edges; no triangle of the domain has parts on both sides. Cost: O(triangles + walls), plus O(walls) for
 /// each part of the domain that touches walls in points only.
 bool cut_away(Triangulation& tin, const SurfaceCut& cut, std::span<const Vertex> vertices);

@@ -20,8 +20,8 @@ namespace scarp {
 
 namespace {
 
-/// Adds the vertices that a soft line needs to follow the raster. Those of a cutline's ring are at least a sample apart
-/// if possible, and on samples if it passes any: triangles at edges much shorter than themselves are slivers.
+/// Adds the vertices that a soft line needs to follow the raster. Vertices of a cutline's ring are at least a sample
+/// apart if possible, and on samples if the ring passes any, because very short edges produce slivers.
 class SoftLine {
  public:
   SoftLine(const LineSamples& samples, const std::array<double, 6>& affine, double tolerance)
@@ -75,7 +75,7 @@ class SoftLine {
     return {affine_[0] + affine_[1] * col + affine_[2] * row, affine_[3] + affine_[4] * col + affine_[5] * row,
             std::numeric_limits<double>::quiet_NaN()};
   }
-  /// The raster's surface there; NaN beyond it.
+  /// The raster's height at a place; NaN beyond it.
   double height_at(const Place& place) const {
     const auto [col, row] = sample_of(place);
     return surface_at(samples_, {col, row});
@@ -114,7 +114,7 @@ std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
   return edges;
 }
 
-/// For each of these edges, 1 if only lines of walls run there. EMPTY: no walls.
+/// For each edge of lines, 1 if only walls run there. EMPTY: no walls.
 std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   std::vector<std::uint8_t> is_start;
   for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   return is_start;
 }
 
-/// The edges that lines pass, for those from number `first` up to `end`.
+/// The edges that the lines with numbers [first, end) pass.
 std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
                                    std::size_t end) {
   std::vector<PolygonEdge> passes;
@@ -187,7 +187,7 @@ KeptEdges all_edges(const Breaklines& placed) {
   return kept;
 }
 
-/// The edges, with their points.
+/// The kept edges, with their points.
 ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
   ConstraintGraph graph;
   std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
@@ -222,7 +222,7 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   }
 }
 
-/// Sets samples on hard lines, except walls, to the heights of the lines. `change(p, height)` returns the old height.
+/// Sets samples on hard lines, except walls, to the heights of the lines. change(p, height) returns the old height.
 template <class Change>
 std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& change) {
   std::vector<SampleEdit> edits;
@@ -253,7 +253,7 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
 /// The graph of the placed lines: the first `breaklines` of `followed`, then rings if there is a cut.
 Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed, std::size_t breaklines, bool is_cut,
                         std::int32_t cols, std::int32_t rows, FieldLines& result) {
-  // Lines detected in the raster are not the caller's.
+  // Lines detected in the raster are not counted.
   std::vector<bool> is_inserted(breaklines, !is_cut);
   for (const auto& chain : placed.chains) {
     if (chain.line < breaklines) is_inserted[chain.line] = true;
@@ -297,7 +297,7 @@ HeightField FieldLines::apply(const HeightField& field) const {
 
 namespace {
 
-/// `count` lines with the vertices that they need. `follow(k)` returns one.
+/// `count` lines with the vertices that they need. follow(k) returns line k.
 template <class Follow>
 std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follow) {
   std::vector<Line> followed(count);
@@ -309,8 +309,8 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
-/// The breakline farthest from the raster in height, before lines change it. Lines entirely at zero count tenfold: most
-/// were never given heights.
+/// The breakline farthest from the raster in height, before lines change it. Lines entirely at zero count tenfold,
+/// because most of them have no real heights.
 FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
                            const LineSamples& samples) {
   const MapToSamples to_samples(affine);
@@ -332,7 +332,7 @@ FarthestLine find_farthest(std::span<const Line> lines, const std::array<double,
   return farthest;
 }
 
-/// For a streamed raster.
+/// prepare_lines() for a streamed raster.
 Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                        double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
   const bool is_cut = !cutline.rings.empty();

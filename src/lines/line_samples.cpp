@@ -39,7 +39,7 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
   samples.begins_.assign(static_cast<std::size_t>(field.rows) + 1, 0);
   for (const Run& run : samples.runs_) ++samples.begins_[static_cast<std::size_t>(run.row) + 1];
   for (std::size_t row = 1; row < samples.begins_.size(); ++row) samples.begins_[row] += samples.begins_[row - 1];
-  // Whole rows, which suits sources, except for wide gaps.
+  // Whole rows suit sources; only wide gaps are omitted.
   std::vector<float> row(static_cast<std::size_t>(field.cols));
   for (std::size_t i = 0; i < samples.runs_.size();) {
     const std::int32_t at = samples.runs_[i].row, first = samples.runs_[i].col;
@@ -134,7 +134,7 @@ std::vector<Segment> LineSamples::outline_near() const {
       if (has_cell(col, row - 1) && reaches(here, 0, 1) != reaches(corners_near(*this, col, row - 1), 3, 2))
         outline.push_back(in_steps({col, row}, {col + 1, row}));
       if (std::popcount(here) != 3) continue;
-      // Across the missing corner.
+      // The diagonal opposite to the missing corner.
       if ((here & 5u) == 5u)
         outline.push_back(in_steps({col, row}, {col + 1, row + 1}));
       else

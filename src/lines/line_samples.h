@@ -1,4 +1,4 @@
-// The samples that lines read: a whole raster, or for a streamed one the samples near the lines.
+// The samples that lines need: a whole raster, or the samples near the lines of a streamed raster.
 #pragma once
 
 #include <cmath>
@@ -33,11 +33,11 @@ class LineSamples {
     return i == kNowhere ? std::numeric_limits<float>::quiet_NaN() : heights_[i];
   }
   bool is_valid(Point p) const { return !std::isnan(at(p)); }
-  /// Changes the height of a sample near a line, unless it is nodata; returns the old one. REQUIRES: read().
+  /// Changes the height of a sample near a line, unless it is nodata. Returns the old height. REQUIRES: read().
   float change(Point p, float height);
 
-  /// The outline of the surface near the lines, where both sides are known, without the sides of the raster. REQUIRES:
-  /// read().
+  /// The part of the surface's outline near lines of which both sides are known, without the sides of the raster.
+  /// REQUIRES: read().
   std::vector<Segment> outline_near() const;
 
   std::uint64_t bytes() const { return sizeof(float) * heights_.size() + sizeof(Run) * runs_.size(); }
@@ -57,7 +57,7 @@ class LineSamples {
 
   Raster raster_;
   std::vector<Run> runs_;            // by row and column, disjoint
-  std::vector<std::size_t> begins_;  // begin of each row's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // begin of each row's runs, and the end of the last row's
   std::vector<float> heights_;
 };
 

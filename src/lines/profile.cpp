@@ -8,8 +8,8 @@ namespace scarp {
 
 namespace {
 
-/// The index between two positions where the heights are farthest from the chord; if an end has no height, where
-/// heights begin. 0: the chord suffices.
+/// The index between two positions where the heights are farthest from the chord, or where heights begin if an end has
+/// none. 0: the chord suffices.
 std::size_t find_split(const std::vector<double>& heights, double tolerance, std::size_t gap, std::size_t first,
                        std::size_t last) {
   const bool begins_beyond = std::isnan(heights[first]), ends_beyond = std::isnan(heights[last]);

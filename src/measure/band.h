@@ -1,4 +1,4 @@
-// A band of rows: the samples that must be covered, and the errors found so far.
+// A band of rows, with the samples that must be covered and the errors found so far.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct TriangleOffender {
   Offender offender;
 };
 
-/// By triangle, the worst first; ties by the lowest row, then column.
+/// Orders by triangle, then the worst first; ties by the lowest row, then column.
 inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffender& b) {
   if (a.triangle != b.triangle) return a.triangle < b.triangle;
   const double x = std::abs(a.offender.error), y = std::abs(b.offender.error);
@@ -56,7 +56,7 @@ struct Limits {
   double everywhere = HUGE_VAL;
   std::span<const float> by_sample = {};  ///< limits of the whole field; empty: none, or those of `source`
   const SampleSource* source = nullptr;   ///< provides the limits of a band
-  bool with_uncovered = false;            ///< samples without a triangle are offenders, too
+  bool with_uncovered = false;            ///< samples without a triangle are also offenders
   const CutRegion* region = nullptr;      ///< samples outside it are ignored; null: none
 };
 
@@ -69,9 +69,9 @@ class Band {
   static constexpr int kMostRows = kMostBandRows;
   static int rows_per_band(int cols) { return cols <= 4096 ? kMostRows : std::max(8, kMostRows * 4096 / cols); }
 
-  /// Reads the rows, with every sample that need not be covered (nodata, stray or cut off) as NaN. Finds the cells that
-  /// must not be covered. Errors are counted in `histogram`, which must outlive the band. Fails as the field's source
-  /// and that of limits do.
+  /// Reads the rows; samples that need not be covered (nodata, stray or cut off) become NaN. Finds the cells that must
+  /// not be covered. Errors are counted in `histogram`, which must outlive the band. Fails as the sources of the field
+  /// and of the limits do.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
                            Histogram& histogram);
 
@@ -89,12 +89,12 @@ class Band {
     held = error;
     if (now > largest_) largest_ = now;
   }
-  /// The smallest error that is critical or makes an offender.
+  /// The smallest error that is critical or makes its sample an offender.
   double watch() const {
     const double limit = lesser(largest_, least_limit_);
     return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
   }
-  /// True if an error of about this size may become the band's largest or exceed a bound, so that its last bit matters.
+  /// True if an error of about this size may become the band's largest or exceed a bound: its last bit matters.
   bool is_critical(int col, int row, double error) const {
     const double magnitude = std::abs(error);
     const double upper = magnitude + (guard_ + kRounding * magnitude);
@@ -104,16 +104,16 @@ class Band {
     const double magnitude = std::abs(error);
     return magnitude > least_limit_ && (magnitude > limits_.everywhere || magnitude > tolerance(col, row));
   }
-  /// Records a sample of `triangle` above its bound.
+  /// Records a sample of `triangle` whose error exceeds its bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
-  /// Sums up the rows that are completely covered. True if a sample that must be covered is not. Called once; then cuts
-  /// off uncovered samples near the edge of the region.
+  /// Sums up the rows that are completely covered. Returns true if a sample that must be covered is uncovered. Also
+  /// cuts off uncovered samples near the edge of the region. Called once.
   bool find_missing();
   /// The same for one row, after find_missing().
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
-  /// Offers a triangle at some distance to a missing sample: the nearest wins; ties by the larger error.
+  /// Offers a triangle at some distance to a missing sample, which accepts the nearest one; a tie: the larger error.
   void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
 
   // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
@@ -129,7 +129,7 @@ class Band {
  private:
   Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram);
   Result<void> take_heights(const HeightField& field);
-  /// Borrows the rows from `top` to `bottom` − 1 from the field's memory and returns true, if all samples are heights.
+  /// If all samples of the rows [top, bottom) are heights, borrows them from the field's memory and returns true.
   bool borrow_heights(const HeightField& field, int top, int bottom);
   void note_range(const std::vector<RowHeights>& rows, int top);
 
@@ -177,8 +177,8 @@ class Band {
   Histogram& histogram_;
   Array<float> heights_;                // empty if borrowed from the field
   const float* all_heights_ = nullptr;  // starts at the row above
-  std::vector<std::int32_t> valid_;     // by row, from the one above on: number of remaining heights
-  std::vector<float> tolerances_;       // empty unless read from a source
+  std::vector<std::int32_t> valid_;     // by row, from the row above on: number of remaining heights
+  std::vector<float> tolerances_;       // empty unless a source provides them
   Array<double> errors_;
   double* all_errors_ = nullptr;  // in errors_: rows of stride_, each aligned to a cache line
   Array<std::uint32_t> scratch_;

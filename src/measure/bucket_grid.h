@@ -24,8 +24,8 @@ struct Box {
 
 class BucketGrid {
  public:
-  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones extend to infinity: points and
-  /// shapes outside belong to the nearest bucket.
+  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost buckets extend to infinity: points
+  /// and shapes outside `box` belong to the nearest bucket.
   BucketGrid(const Box& box, std::size_t buckets) : box_(box) {
     const double width = std::max(box.x1 - box.x0, 0.0), height = std::max(box.y1 - box.y0, 0.0);
     const double count = static_cast<double>(std::clamp<std::size_t>(buckets, 1, std::size_t{1} << 28));
@@ -52,7 +52,7 @@ class BucketGrid {
   }
 
   /// Fills the buckets. each(visit) calls visit(id, shape) for every shape, in the same order each time; a shape has
-  /// y_extent() and x_range(lo, hi). Entries of a bucket keep that order.
+  /// y_extent() and x_range(lo, hi). The entries of a bucket have that order.
   template <class Each>
   void fill(const Each& each) {
     starts_.assign(static_cast<std::size_t>(cols_) * static_cast<std::size_t>(rows_) + 1, 0);

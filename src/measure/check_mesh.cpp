@@ -16,7 +16,7 @@ Result<void> check_mesh(const Mesh& mesh) {
     return fail(ErrorKind::kInput,
                 fmt::format("the mesh has {} triangles; the judge holds up to 1,431,655,765", mesh.triangle_count()));
   }
-  // Branchless first pass, for vectorisation.
+  // The first pass has no branches, so that it can be vectorised.
   std::uint32_t largest = 0;
   for (const std::uint32_t v : mesh.triangles) largest = std::max(largest, v);
   for (std::size_t i = 0; largest >= mesh.vertex_count() && i < mesh.triangles.size(); ++i) {

@@ -58,7 +58,7 @@ double CutRegion::distance(const Segment& s, double x, double y) {
   return std::hypot(s.x0 + at * dx - x, s.y0 + at * dy - y);
 }
 
-/// Tests left of the point; half open, so that a vertex on the row counts once.
+/// True if the segment crosses the row left of the point; half open, so that a vertex on the row counts once.
 bool CutRegion::crosses(const Segment& s, double x, double y) {
   if ((s.y0 <= y) == (s.y1 <= y)) return false;
   return s.x0 + (y - s.y0) / (s.y1 - s.y0) * (s.x1 - s.x0) < x;
@@ -83,7 +83,7 @@ bool CutRegion::is_near(double x, double y, double distance) const {
   });
 }
 
-/// Fills between every two crossings of the row with the rings of a polygon.
+/// Fills the row between each two crossings with the rings of a polygon.
 void CutRegion::mark_inside(int row, Place* places) const {
   const std::vector<Segment>& segments = segments_at(row);
   std::vector<double> crossings;
@@ -105,7 +105,7 @@ void CutRegion::mark_inside(int row, Place* places) const {
 
 void CutRegion::mark_near(int row, Place* places) const {
   for (const Segment& s : segments_at(row)) {
-    // The part of it near the row.
+    // The part of the segment near the row.
     double begin = 0, end = 1;
     if (s.y0 != s.y1) {
       const double one = (row - kNear - s.y0) / (s.y1 - s.y0), other = (row + kNear - s.y0) / (s.y1 - s.y0);

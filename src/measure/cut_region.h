@@ -1,7 +1,7 @@
 // The region within the cutline of a mesh.
 //
-// The rings are used as given, in double arithmetic. The mesh has them rounded to its lattice, by at most 3/512 sample.
-// So samples near the rings are not required; kNear is more than twice as far.
+// The rings are used as given, in double arithmetic. The mesh contains them rounded to its lattice, by at most 3/512
+// sample. So the mesh need not cover samples near the rings. kNear is more than twice that distance.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class CutRegion {
  public:
   static constexpr double kNear = 1.0 / 64;  ///< in samples
 
-  /// REQUIRES: the affine map is invertible. Cost: O(rows + segments · rows that they cross).
+  /// REQUIRES: the affine map is invertible. Cost: O(rows + segments · rows that each crosses).
   CutRegion(const Cutline& cutline, int cols, int rows);
 
   enum class Place : std::uint8_t { kOutside, kNear, kInside };
@@ -39,7 +39,7 @@ class CutRegion {
   void mark_near(int row, Place* places) const;
 
   int cols_, rows_;
-  std::vector<std::vector<Segment>> segments_;  // by row of cells, those within 2 kNear of it; each polygon's are
+  std::vector<std::vector<Segment>> segments_;  // by row of cells: segments within 2 kNear of it; each polygon's are
                                                 // consecutive
 };
 

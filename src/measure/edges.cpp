@@ -1,7 +1,7 @@
-// Edges and the borders they form.
+// Edges and the borders that they form.
 //
-// Half-edges are sorted by their smaller vertex (counting sort), then by the larger one within each vertex's short
-// list: equal ones are the triangles around one edge.
+// Half-edges are sorted by their smaller vertex (counting sort), then by the larger vertex within each vertex's short
+// list. Equal half-edges belong to the triangles around one edge.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,7 +37,7 @@ class UnionFind {
 /// Half-edges by their smaller vertex, then the larger one, then their number, 3·triangle + their first corner.
 class EdgeList {
  public:
-  /// The larger vertex, then the number, as one sort key.
+  /// The larger vertex, then the half-edge's number, as one sort key.
   struct HalfEdge {
     std::uint64_t key;
 
@@ -106,9 +106,9 @@ class EdgeList {
   Array<HalfEdge> halves_;
 };
 
-/// Corners connected by edges of two triangles form fans; an open edge ends a fan at both its vertices, and each fan
-/// with an end has two. So the open edges chained through fans are the loops, also where loops touch in a vertex. Only
-/// fans at vertices of open edges matter.
+/// Corners connected by edges of two triangles form fans. An open edge ends a fan at both its vertices, and each fan
+/// with an end has two ends. So the open edges chained through fans are the loops, even if loops touch in a vertex.
+/// Only fans at vertices of open edges matter.
 std::uint64_t count_loops(const Mesh& mesh, const EdgeList& edges, std::span<const OpenEdge> open,
                           std::span<const std::uint32_t> open_halves) {
   std::vector<bool> is_end(mesh.vertex_count());

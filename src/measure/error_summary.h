@@ -55,16 +55,16 @@ class Histogram {
   void make_page(std::uint32_t index);
   void make_first_pages(std::uint32_t index);
   void carry();
-  /// In counts_ and small_.
+  /// The count in counts_ and small_.
   std::uint32_t recent_in(std::size_t at) const { return counts_[at] + (at < dense_size_ ? small_[at] : 0u); }
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
 
   std::vector<std::uint32_t> few_;  ///< buckets, before pages exist
 
-  /// Pages of counts, one per exponent of the float, created on first use. The first ones are adjacent, so that most
-  /// errors need no access to pages_: those of `dense_size_` buckets from `dense_from_` on. Their counts are first
-  /// added to small_, which needs half as much cache.
+  /// Pages of counts, one per exponent of the float, created on first use. The first pages are adjacent. They hold the
+  /// `dense_size_` buckets from `dense_from_` on, so most errors need no access to pages_. Their counts are first added
+  /// to small_, which needs half as much cache.
   Array<std::uint32_t> counts_;
   Array<std::uint16_t> small_;
   std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: start of the page
@@ -85,7 +85,7 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// Sums of one row. Each has kSumParts parts, by column, added up by sum_of_parts().
+/// Sums of one row. Each is computed in kSumParts parts, by column, added up by sum_of_parts().
 struct RowSums {
   std::uint64_t samples = 0;
   double error = 0, magnitude = 0, square = 0;

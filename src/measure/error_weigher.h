@@ -1,4 +1,4 @@
-// Weighted errors: under a mask, by tolerances.
+// Errors weighted by a mask or by tolerances.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@ namespace scarp::judge {
 /// Sums up rows from the top.
 class ErrorWeigher {
  public:
-  /// An error plus the `reserve` (for the rounding of samples) minus the `allowance` counts as above `bound` if it
-  /// exceeds it by more than 2^-23 of it, since the judge returns errors as float32.
+  /// An error plus `reserve` (for the rounding of samples) minus `allowance` counts as above `bound` if it exceeds
+  /// `bound` by more than a factor of 1 + 2^-23, because the judge returns errors as float32.
   ErrorWeigher(double bound, double reserve, double allowance);
 
   struct Row {
-    std::span<const float> errors;          ///< signed, NaN where nodata or uncovered
+    std::span<const float> errors;          ///< signed, NaN for nodata or uncovered samples
     std::span<const double> norms = {};     ///< replace `errors` unless empty
     std::span<const float> mask = {};       ///< empty: none
     std::span<const float> tolerance = {};  ///< empty: none
-    std::span<const float> limits = {};     ///< above 0: no bound; empty: none
+    std::span<const float> limits = {};     ///< a limit above 0: the sample has no bound; empty: none
   };
   void add(int row, const Row& values);
   WeighedErrors finish() const;

@@ -5,12 +5,12 @@
 namespace scarp::judge {
 namespace {
 
-/// Facets on the lattice of 256ths up to this size have weights of at most 45 bits, and a slack below their step.
+/// Up to this size, facets on the lattice of 256ths have weights of at most 45 bits, and a slack below a weight's step.
 constexpr double kMostExact = 2048;
 /// Largest column for exact spans. In a row, a side of such a facet is either on a sample or at least 2^-27 of a column
-/// away. The margin plus the rounding in a column below this one is less than half of that.
+/// away from all. In smaller columns, the margin plus the rounding is less than half of that distance.
 constexpr std::int32_t kMostExactCols = 1 << 22;
-/// In narrower rows a search for sides does not pay.
+/// In narrower rows, a search for sides costs more than it saves.
 constexpr std::int32_t kNarrow = 8;
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Judging in any frame.
 //
-// A frame with a transform (a map projection) cannot be inverted here, so samples are converted to the mesh's frame.
-// Each row's positions are transformed. A bucket grid over the field's image, with as many buckets as triangles, yields
-// the candidates at a position. Tolerances are in samples: near a sample the frame is treated as affine, and its
-// inverse converts triangles to grid coordinates around the sample.
+// A frame with a transform (a map projection) cannot be inverted here, so samples are converted to the mesh's frame,
+// row by row. A bucket grid over the field's image, with as many buckets as triangles, yields the candidate triangles
+// at a position. Tolerances are in samples: near a sample, the frame is treated as affine, and its inverse converts
+// triangles to grid coordinates around the sample.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -71,8 +71,8 @@ class FrameScanner : public Scanner {
   }
 
  private:
-  /// The bounds of the field, from its border and some lines across it, with a margin; triangles outside cost nothing.
-  /// Samples outside the bounds still find their triangles, but slowly.
+  /// The bounds of the field, from its border and some lines across it, with a margin. Triangles outside cost nothing.
+  /// The triangles of samples outside are still found, but slowly.
   Box bounds(const HeightField& field) const {
     std::vector<double> cols, rows;
     const double last_col = field.cols - 1, last_row = field.rows - 1;
@@ -168,7 +168,7 @@ class FrameScanner : public Scanner {
   }
 
   /// Calls visit(id, facet in grid coordinates around the point) for all triangles in the buckets within `reach`
-  /// samples, maybe repeatedly.
+  /// samples, perhaps repeatedly.
   template <class Visit>
   void visit_near(const LocalFrame& at, double reach, const Visit& visit) const {
     const double dx = reach * (std::abs(at.col_x) + std::abs(at.row_x)),

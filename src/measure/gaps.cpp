@@ -1,13 +1,13 @@
 // Holes in the surface.
 //
-// A triangle whose samples all lie on its edges can be missing without uncovering any sample. Its border reveals the
-// hole: edges with one triangle, next to which the domain continues. So each open edge is split where it crosses the
-// lattice lines. Then the raster is tested for surface slightly outside the middle of each piece.
+// A triangle whose samples all lie on its edges can be missing without uncovering any sample. The border of the hole
+// reveals it: edges with one triangle, beyond which the domain continues. So each open edge is split where it crosses
+// the lattice lines. Then the raster is tested for surface slightly outside the middle of each piece.
 //
-// Surface there is not always a fault. Where the outline was simplified, a thin wedge of nodata can separate an edge
-// from the surface of another place. There the point is covered, and the edge itself lies in nodata. It is a gap only
-// if the point is uncovered, or if no nodata separates it from the edge (a crack thinner than the step outwards).
-// Likewise a slit of the cutline may separate an edge from the surface next to it.
+// Surface there is not always a fault. If the outline was simplified, a thin wedge of nodata can separate an edge from
+// other surface. Then the tested point is covered, and the edge lies in nodata. An edge is a gap only if the point is
+// uncovered, or if no nodata separates the point from the edge (a crack thinner than the step outwards). Likewise, a
+// slit of the cutline may separate an edge from the surface next to it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,7 +62,7 @@ class ValidDomain {
 };
 
 /// The crossings of the line from a to b with lattice lines, within the raster: ascending, as fractions of the line,
-/// including both ends. Empty if it is outside the raster.
+/// including both ends. Empty if the line is outside the raster.
 void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, std::vector<double>& cuts) {
   cuts.clear();
   double first = 0, last = 1;
@@ -76,7 +76,7 @@ void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, s
     first = std::max(first, std::min(t0, t1));
     last = std::min(last, std::max(t0, t1));
   };
-  // Half a sample more, to include edges outside the raster by rounding.
+  // Extends the raster by half a sample, to include edges that are outside by rounding.
   clip(a.x, b.x, -0.5, domain.last_col() + 0.5);
   clip(a.y, b.y, -0.5, domain.last_row() + 0.5);
   if (!(first < last)) return;
@@ -147,7 +147,7 @@ struct Doubt {
   Point at;  ///< in the grid
 };
 
-/// Marks the edges of those doubts that no triangle covers.
+/// Marks the edges of the doubts that no triangle covers.
 void settle(const HeightField& field, const Mesh& mesh, const std::vector<Doubt>& doubts, std::vector<bool>& is_gap) {
   std::vector<double> x, y;
   for (const Doubt& doubt : doubts) {
@@ -205,7 +205,7 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, con
   const std::vector<Point> points = map_to_grid(field, mesh, vertices);
   ValidDomain domain(field);
   const double step = std::clamp(4 * tolerance, 1.0 / 64, 0.25);
-  // Less than any wedge between lattice edges of a raster in memory, more than the rounding of a mapped vertex.
+  // Smaller than any wedge between lattice edges of a raster in memory, larger than the rounding of a mapped vertex.
   constexpr double kNoise = 1e-7;
 
   std::vector<bool> is_gap(open.size());

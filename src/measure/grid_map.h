@@ -10,8 +10,8 @@
 namespace scarp::judge {
 
 /// The inverse of an affine frame in plain double arithmetic, the same on all machines. A coordinate is snapped to an
-/// integer, or to a 256th, if rounding may have moved it that far. Rounding is estimated as four units in the last
-/// place of the vertex's source coordinates (the frame's, the origin, its own), in samples, plus the loss of the
+/// integer, or to a multiple of 1/256, if rounding may have moved it that far. Rounding is estimated as four units in
+/// the last place of the vertex's source coordinates (frame, origin and vertex), in samples, plus the loss of the
 /// inverse itself.
 class GridMap {
  public:
@@ -38,7 +38,7 @@ class GridMap {
  private:
   static constexpr double kUlp = 0x1p-52;
 
-  /// a + b + c, rounded once or twice: differences of large coordinates are not lost.
+  /// a + b + c, rounded once or twice, so that differences of large coordinates are not lost.
   static double sum_of(double a, double b, double c) {
     const auto lost = [](double p, double q, double sum) {
       const double back = sum - p;

@@ -34,7 +34,7 @@ class Places {
   GridMap to_grid_;
 };
 
-/// Nothing if a corner does not fit.
+/// Returns none if a corner does not fit.
 std::optional<Array<FacetCorners::Short>> find_short(const Places& places, std::size_t count, int threads) {
   Array<FacetCorners::Short> corners;
   const auto fill = [&](std::size_t first, std::size_t end) {
@@ -43,7 +43,7 @@ std::optional<Array<FacetCorners::Short>> find_short(const Places& places, std::
     return is_short;
   };
   corners.resize(count);
-  // The first ones usually decide.
+  // The first corners usually decide.
   if (!fill(0, std::min(count, kTogether))) return std::nullopt;
   std::vector<std::uint8_t> are_short(count / kTogether + 1, 1);
   parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {

@@ -19,7 +19,7 @@ struct FacetCorner {
   double x, y, z;
 };
 
-/// Corners by vertex. They need half the memory if vertices lie on samples, or near them on the lattice of fitting.
+/// Corners by vertex. They use half the memory if vertices lie on samples, or near samples on the lattice of fitting.
 class FacetCorners {
  public:
   /// x and y in steps of the GridMap's lattice.
@@ -67,8 +67,8 @@ struct GridPlaces {
   bool are_on_lattice = true;  ///< all columns and rows are multiples of 1/256
 };
 
-/// Computes the places with GridMap. kInput for a vertex out of reach (check_mesh.h). REQUIRES: an invertible affine
-/// frame. The result does not depend on threads.
+/// Computes the places with GridMap. Fails with kInput for a vertex out of reach (check_mesh.h). REQUIRES: an
+/// invertible affine frame. The result does not depend on threads.
 Result<GridPlaces> place_on_grid(const HeightField& field, const Mesh& mesh, int threads);
 
 }  // namespace scarp::judge

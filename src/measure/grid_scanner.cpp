@@ -1,13 +1,13 @@
 // Judging in an affine frame.
 //
 // The vertices are mapped back to grid coordinates, where sample (col, row) is the point (col, row). The inverse map
-// leaves noise of some 1e-16 of the coordinates. Coordinates that close to a lattice line are snapped to it (see
-// GridMap), so that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is scanned
-// by rows: the samples between its left and right side are judged in vectors (judge_kernels.h). Samples on a side
-// belong to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are
-// positive, so there is no further cancellation. An error that may be the band's largest or exceed a bound is computed
-// exactly. For a mesh in space this finds the samples near each triangle, and the uncovered ones; space_judge.h
-// computes the errors.
+// causes noise of some 1e-16 of the coordinates. Coordinates that close to a lattice line are snapped to it (see
+// GridMap), so that a vertex on a sample is judged there with exact sums. Each triangle is scanned by rows: the samples
+// between its left and right sides are judged in vectors (judge_kernels.h). Samples on a side belong to both triangles.
+// A sample's error is the barycentric mean of (corner height − sample): all weights are positive, so there is no
+// further cancellation. An error that may be the band's largest or exceed a bound is computed exactly. For a mesh in
+// space, the scanner finds the samples near each triangle, and the uncovered samples; space_judge.h computes the
+// errors.
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -83,7 +83,7 @@ class GridScanner : public Scanner {
     return {static_cast<std::int32_t>(lo) / rows_per_band_, static_cast<std::int32_t>(hi) / rows_per_band_};
   }
 
-  /// Counting sort, part by part: triangles of a band remain ascending.
+  /// Counting sort, part by part, so that triangles of a band remain ascending.
   void sort_into_bands(std::optional<std::span<const std::uint32_t>> ids, int threads) {
     constexpr std::size_t kTogether = 1 << 16;
     const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);

@@ -13,8 +13,8 @@
 
 namespace scarp::judge {
 
-/// Reads the field by squares and caches some hundred of them, 4 KB each: queries along a line read each square once.
-/// After a failure of the field's source no sample is a height, and failure() returns the reason.
+/// Reads the field by squares of 4 KB and caches some hundred of them, so queries along a line read each square once.
+/// After a failure of the field's source, no sample is a height, and failure() returns the reason.
 class HeightMarks {
  public:
   explicit HeightMarks(const HeightField& field) : field_(field), squares_(kSquares) {}

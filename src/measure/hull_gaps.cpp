@@ -19,7 +19,7 @@ double turn(const Spot& a, const Spot& b, const Spot& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// All spots but those that surely are no corners of the hull: they lie well inside the octagon of the outermost ones.
+/// All spots except those well inside the octagon of the outermost spots, which cannot be corners of the hull.
 template <class SpotOf>
 std::vector<Spot> find_outer(std::size_t count, const SpotOf& spot) {
   constexpr std::array<std::array<double, 2>, 8> kWays{
@@ -84,7 +84,7 @@ std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, doub
       return is_inside(
           Spot{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length});
     };
-    // Beyond a short edge near the corner of a narrow hole, what is far lies across the hole.
+    // From a short edge near the corner of a narrow hole, the far place lies across the hole.
     count += is_inside_at(far) && is_inside_at(std::max(std::min(far, length / 16), 4 * noise));
   }
   return count;

@@ -1,7 +1,7 @@
 // The judge's kernels in vectors, compiled once for every instruction set through Highway.
 //
-// Vectors of at most eight lanes. No lambdas and no standard library functions between HWY_BEFORE_NAMESPACE and
-// HWY_AFTER_NAMESPACE: they would be compiled for one instruction set and linked for all.
+// Vectors have at most eight lanes. Between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE, use no lambdas or standard
+// library functions: they would be compiled for one instruction set and linked for all.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Wide = hn::CappedTag<double, 8>;
 using WideVec = hn::Vec<Wide>;
 
-/// Constants of a facet, in registers: the compiler must assume that stores of errors change memory.
+/// Constants of a facet, in registers, since the compiler must assume that stores of errors change memory.
 struct FacetHeights {
   WideVec z0, z1, z2, per_area, watch;
 
@@ -90,7 +90,7 @@ HWY_INLINE WideVec columns_from(std::int32_t col) {
   return hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(col)));
 }
 
-/// For an exact facet at most as wide as a vector: a row is one step.
+/// For an exact facet that is at most as wide as a vector, so that a row is one step.
 template <bool kIsWhole>
 HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Caution& caution) {
   const Wide d;
@@ -115,8 +115,8 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
   }
 }
 
-/// For an exact facet, whose spans contain exactly its samples: weights advance by steps. Steps begin at multiples of
-/// the lanes, so that values just stored by a neighbour can be reloaded at once.
+/// For an exact facet, whose spans contain exactly its samples. Weights advance by steps. Steps begin at multiples of
+/// the number of lanes, so that values just stored by a neighbour can be reloaded at once.
 template <bool kIsWhole, bool kHasSpans>
 HWY_INLINE void judge_exact_row(const FacetTask& facet, const BandRows& band, std::int32_t row, std::int32_t left,
                                 std::int32_t right, FacetHeights& heights_of, Caution& caution) {
@@ -256,7 +256,7 @@ RowSums sum_row(const double* errors, std::int32_t count, Buckets& buckets) {
       next += kLanes;
     }
   }
-  // Lanes without samples counted as zeros in the buckets, and so did all omitted lanes.
+  // Lanes without samples and omitted lanes counted as zeros in the buckets.
   buckets.count = static_cast<std::size_t>(next - buckets.values);
   buckets.zeros = static_cast<std::int64_t>(samples) - static_cast<std::int64_t>(buckets.count);
   RowSums sums;

@@ -1,6 +1,6 @@
-// Samples without a bound are found first, as limits of 0 or infinity, so that measure() reports the largest errors of
-// the others. Then errors are weighed: row by row during judging if bounds are read in windows, otherwise all at the
-// end.
+// Samples without a bound are found first and get an infinite limit, others get limit 0, so that measure() reports the
+// largest errors of the others. Then errors are weighed: row by row during judging if bounds are read in windows,
+// otherwise all at the end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,8 +66,8 @@ class BoundLimits final : public SampleSource {
 
 /// The valid samples without a bound.
 struct Exceptions {
-  std::vector<float> limits;            ///< +infinity for them, 0 for the others; empty if none
-  std::unique_ptr<BoundLimits> source;  ///< the same in windows; null if none
+  std::vector<float> limits;            ///< +infinity for these samples, 0 for others; empty if none
+  std::unique_ptr<BoundLimits> source;  ///< the same, read in windows; null if none
   std::uint64_t count = 0;
 };
 
@@ -95,7 +95,7 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimit
   return count;
 }
 
-/// The same for samples, or bounds, that are read in windows.
+/// The same if samples or bounds are read in windows.
 Result<Exceptions> find_windowed_exceptions(const HeightField& field, const JudgeOptions& options) {
   Exceptions found;
   auto limits = std::make_unique<BoundLimits>(options);
@@ -142,7 +142,8 @@ LargestError find_largest(const std::vector<Offender>& offenders) {
   return largest;
 }
 
-/// Adds |scaled error| to each sample's norm; kSquares sums squares until the last one. Missing errors are skipped.
+/// Adds |scaled error| to each sample's norm; for kSquares, norms are sums of squares until the last error. Missing
+/// errors are skipped.
 void add_to_norms(std::span<double> norms, std::span<const float> errors, double scale, Norm norm) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (std::isnan(errors[k])) continue;
@@ -153,7 +154,7 @@ void add_to_norms(std::span<double> norms, std::span<const float> errors, double
   }
 }
 
-/// Judges one channel as a height: nodata where the height is.
+/// Judges one channel as a height, with nodata where the height is nodata.
 class ChannelJudge {
  public:
   ChannelJudge(const HeightField& heights, const Mesh& mesh) : heights_(heights), mesh_(mesh) {

@@ -126,7 +126,7 @@ class Verdict {
   }
 
  private:
-  /// A triangle in several bands has one offender; so have two triangles that share a sample.
+  /// Merges the offenders of a triangle in several bands, and of two triangles that share a sample.
   void merge_offenders() {
     sort_rarely(offenders_, judge::is_worse_of_triangle);
     for (std::size_t i = 0; i < offenders_.size(); ++i) {
@@ -151,7 +151,7 @@ class Verdict {
   std::vector<judge::TriangleOffender> offenders_;
 };
 
-/// Bound of the rounding error of plain double arithmetic, with a margin: the share of the mesh's heights.
+/// The mesh's share in the bound of the rounding error of plain double arithmetic, with a margin.
 double error_guard(const Mesh& mesh) {
   double size = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -160,8 +160,8 @@ double error_guard(const Mesh& mesh) {
   return kRounding * size;
 }
 
-/// Sets all results about heights; `keep` selects the values for on_row. Fails with kCancelled if the caller stops it,
-/// and as the field's source does.
+/// Sets all results about heights. `keep` selects the values for on_row. Fails with kCancelled if the caller stops, and
+/// as the field's source does.
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                            const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
                            ProgressGate& gate, Measurement& result) {
@@ -172,7 +172,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
   const int window = 2 * std::min(thread_count(options.run.threads), 1024);
-  // One histogram per slot of the window: the sums do not depend on which band used it.
+  // One histogram per slot of the window; the sums do not depend on which band used a slot.
   std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
   Verdict verdict(options, field.cols, result);
   for (int first = 0; first < bands; first += window) {
@@ -200,7 +200,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
 
 /// The triangles judged for heights: all, or the upward ones of a solid.
 struct Surface {
-  std::optional<Array<std::uint32_t>> judged;  ///< ascending; nothing: all
+  std::optional<Array<std::uint32_t>> judged;  ///< ascending; none: all
   judge::Connections connections;              ///< connections, if requested or needed
   bool closed = false;
 
@@ -225,7 +225,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
     upwards[first / kTogether] = here;
   });
   std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
-  // A solid has walls and a bottom. If all triangles face up, edges matter for the topology only.
+  // A solid has walls and a bottom. If all triangles face up, edges matter only for the topology.
   if (with_edges || upward < count) {
     surface.connections = judge::connect(mesh, upward == count);
     surface.closed = surface.connections.edges.open.empty();
@@ -240,7 +240,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
   return surface;
 }
 
-/// The mesh as judged on the map: a mesh in space is converted to the map, and its heights are judged in space.
+/// The mesh to judge on the map. A mesh in space is converted to the map, but its heights are judged in space.
 class Judged {
  public:
   /// `field` and `mesh` must outlive this. `with_heights`: make_scanner() will be called. Fails as measure().
@@ -271,13 +271,13 @@ class Judged {
     return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
-  /// Prepares the counting of folds.
+  /// Prepares counting of folds.
   void look_in_space(Surface& surface) {
     if (!flat_mesh_ || space_) return;
     space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
   }
 
-  /// Samples, besides the offenders, that may repair faults other than height errors.
+  /// Samples, in addition to the offenders, that may repair faults other than height errors.
   std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
 
   /// REQUIRES: look_in_space() was called.

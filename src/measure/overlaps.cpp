@@ -1,10 +1,10 @@
 // Pairs of triangles that overlap seen from above.
 //
-// Two convex polygons have disjoint interiors exactly if a side of one of them has the other on its far side
-// (separating axis). Pairs are sought in a bucket grid with about two triangles per bucket. A bucket with many (dense
-// relief in a large mesh) gets a nested grid, as long as that helps. Neighbours share corners, bit by bit, so their
-// common side separates them without rounding. For other pairs a penetration below the rounding of positions is
-// ignored.
+// Two convex polygons have disjoint interiors exactly if one polygon lies on the far side of a side of the other
+// (separating axis). Pairs are searched in a bucket grid with about two triangles per bucket. A bucket with many
+// triangles (dense relief in a large mesh) gets a nested grid, as long as that helps. Neighbours share corners, bit by
+// bit, so their common side separates them without rounding. For other pairs a penetration below the rounding of
+// positions is ignored.
 #include <algorithm>
 #include <cstddef>
 
@@ -36,7 +36,7 @@ class OverlapFinder {
     return area != 0;
   }
 
-  /// Buckets as large as two ordinary triangles, so that dense clusters do not make them small.
+  /// Makes buckets as large as two ordinary triangles, so that dense clusters do not make buckets small.
   BucketGrid build_grid(const Box& box, std::span<const std::uint32_t> ids) const {
     PlanTriangle plan;
     double covered = 0;
@@ -57,7 +57,7 @@ class OverlapFinder {
     return grid;
   }
 
-  /// Appends the overlapping pairs of one bucket to `found`, maybe repeatedly, until it has `most`.
+  /// Appends the overlapping pairs of one bucket to `found`, perhaps repeatedly, until it has `most`.
   void search(const Box& box, std::span<const std::uint32_t> ids, int depth, std::size_t most,
               std::vector<Pair>& found) const {
     if (found.size() >= most) return;
@@ -107,7 +107,7 @@ class OverlapFinder {
     }
   }
 
-  /// True if all of `b` is on the far side of a side of `a`, up to rounding.
+  /// True if `b` is entirely on the far side of a side of `a`, up to rounding.
   bool separates(const PlanTriangle& a, const PlanTriangle& b) const {
     for (int k = 0; k < 3; ++k) {
       const int next = k == 2 ? 0 : k + 1;

@@ -1,4 +1,4 @@
-// A triangle seen from above, as the judge represents it: corners in double, closed, without any lattice.
+// A closed triangle seen from above, as the judge represents it: corners in double, without a lattice.
 #pragma once
 
 #include <algorithm>
@@ -39,15 +39,15 @@ struct PlanTriangle {
     const double least = -slack();
     return weight(0, px, py) >= least && weight(1, px, py) >= least && weight(2, px, py) >= least;
   }
-  /// Depth of p inside: distance to the nearest side's line; negative outside.
+  /// Depth of p in the triangle: distance to the nearest side's line; negative outside.
   double depth(double px, double py) const {
     double least = weight(0, px, py) / side(0);
     least = std::min(least, weight(1, px, py) / side(1));
     return std::min(least, weight(2, px, py) / side(2));
   }
 
-  /// The range of x for the part of the triangle with y in [lo, hi]. An interval outside the triangle is moved to its
-  /// nearest end.
+  /// The range of x for the part of the triangle with y in [lo, hi]. An interval outside the triangle is replaced by
+  /// the triangle's nearest end.
   Interval x_range(double lo, double hi) const {
     const Interval along = y_extent();
     lo = std::clamp(lo, along.lo, along.hi);

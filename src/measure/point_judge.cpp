@@ -38,7 +38,8 @@ Result<void> check_options(const PointSet& points, const MeasureOptions& options
   return {};
 }
 
-/// More buckets than triangles where points are many: each point is compared with every triangle of its bucket.
+/// More buckets than triangles if there are many points, since each point is compared with every triangle of its
+/// bucket.
 std::size_t buckets_for(std::size_t triangles, std::size_t points) {
   return std::max(triangles, std::min(8 * triangles, points));
 }
@@ -75,7 +76,7 @@ class Judge {
     return point < snapped_.size() ? snapped_.z[point] : snapped_.echoes[point - snapped_.size()].z;
   }
 
-  /// Judges points one after the other, which should be near each other in the plane.
+  /// Judges points one after the other; successive points should be near each other in the plane.
   class Run {
    public:
     explicit Run(const Judge& judge) : judge_(judge) {}
@@ -120,7 +121,7 @@ class Judge {
       }
     }
 
-    /// Exact for errors of 0, around the bound, and for those that may be the run's largest.
+    /// Exact for errors of 0, near the bound, or possibly the largest of the run.
     double error_at(const Facet& facet, const std::array<double, 3>& weights, double z) {
       constexpr double kRounding = 0x1p-48;
       double sum = 0, size = 0;
@@ -156,7 +157,7 @@ class Judge {
     }
     return make_counter_clockwise(facet);
   }
-  /// Keeps the larger error; ties by the lower triangle.
+  /// Keeps the larger error; for ties, the lower triangle.
   static void take(Verdict& verdict, double error, std::uint32_t t) {
     if (std::abs(error) <= std::abs(verdict.error)) return;
     verdict = {error, t};
@@ -195,7 +196,7 @@ class PointBounds {
   }
 
   double at(std::uint32_t source) const { return std::min(for_all_, own(source)); }
-  /// The point's tolerance, infinite without.
+  /// The point's tolerance; infinite if it has none.
   double own(std::uint32_t source) const {
     if (tolerances_.empty()) return HUGE_VAL;
     const double tolerance = double{tolerances_[source]};
@@ -207,7 +208,7 @@ class PointBounds {
   std::span<const float> tolerances_;
 };
 
-/// The polygons at which the surface ends: those of the points, else of the options.
+/// The polygons at which the surface ends, from the points, else from the options.
 std::vector<PlaceRing> rings_of(const PointSet& points, const MeasureOptions& options) {
   std::vector<PlaceRing> rings;
   for (const auto& ring : points.boundary) {
@@ -320,7 +321,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
   const PointBounds bounds(snapped, options);
-  // In the order of the lattice, so that sums do not depend on the order of the points.
+  // In lattice order, so that sums do not depend on the order of the points.
   std::vector<double> errors(judge.size(), kNone);
   std::vector<std::uint32_t> triangles(options.collect_above ? judge.size() : 0);
   constexpr std::size_t kChunk = 1 << 14;

@@ -1,4 +1,4 @@
-// Finds the triangle over each sample, with one algorithm for affine frames and one for all.
+// Finds the triangle over each sample, with one algorithm for affine frames and one for all frames.
 #pragma once
 
 #include <cstddef>
@@ -46,9 +46,8 @@ class Scanner {
 class SpaceJudge;
 
 /// For affine frames: `places` holds the vertices' positions in the grid; triangles are scanned row by row. `ids`:
-/// triangles to judge, ascending; nothing: all; used during construction only. `space`: for a mesh in space, the judge
-/// of its errors (`field` and `mesh` are then on the map); null: none. Everything else borrowed must outlive the
-/// scanner.
+/// triangles to judge, ascending; none: all; used during construction only. `space`: for a mesh in space, the judge of
+/// its errors (`field` and `mesh` are then on the map); null: none. Everything else borrowed must outlive the scanner.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
                                            std::optional<std::span<const std::uint32_t>> ids, double tolerance,
                                            int threads, const SpaceJudge* space = nullptr);

@@ -54,7 +54,7 @@ void in_parts(std::size_t count, int threads, FunctionRef<void(std::size_t, std:
   });
 }
 
-/// No area in space, up to the rounding of the cross product.
+/// True if the triangle has no area in space, up to the rounding of the cross product.
 bool is_degenerate(const Mesh& mesh, std::size_t t) {
   const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t]}];
   const double* b = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + 1]}];
@@ -179,7 +179,7 @@ void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, int
   in_parts(judged.size(), threads, [&](std::size_t, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) tangents[i] = smallest_tangent(plan_of(mesh, judged[i]));
   });
-  // From the largest percentile down: each search only needs the values below the previous.
+  // From the largest percentile down, so that each search needs only the values below the previous one.
   constexpr std::array<std::size_t, 3> kPercents{1, 5, 50};
   double* end = tangents.end();
   for (std::size_t i = kPercents.size(); i-- > 0;) {

@@ -1,10 +1,9 @@
 // Surfaces that lie in one layer, seen from above.
 //
-// If all triangles face up and each edge has one triangle or two in opposite directions, the number of triangles over a
-// point is the winding number of the open edges, each with its triangle on its left. So no two triangles overlap if the
-// border winds around no point twice. Horizontal lines through all ends of open edges cut the plane into slabs. In each
-// slab the edges must lie next to each other, at its lower and its upper end, and lead down and up alternately,
-// beginning with down.
+// Suppose that all triangles face up and each edge has one triangle, or two in opposite directions. Then the number of
+// triangles over a point is the winding number of the open edges, each with its triangle on its left. So no two
+// triangles overlap if the border winds around no point twice. Horizontal lines through all ends of open edges cut the
+// plane into slabs. In each slab, the edges must not cross, and must lead down and up alternately, beginning with down.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +25,7 @@ struct Side {
   }
 };
 
-/// By their lower end. Horizontal ones are omitted: slabs end at them.
+/// Sorted by lower end. Horizontal sides are omitted, since slabs end there.
 std::vector<Side> sides_of(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::vector<Side> sides;
   sides.reserve(open.size());
@@ -64,7 +63,7 @@ bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   const double noise = position_noise(mesh);
-  // Gives up on ragged borders that need more work; overlaps are then searched.
+  // Stops at ragged borders that need more work; overlaps are then searched.
   std::size_t left_to_do = 8 * mesh.triangle_count() + 1024;
   std::vector<const Side*> active;
   std::size_t next = 0;

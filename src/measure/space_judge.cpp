@@ -30,7 +30,7 @@ Vector vertex(const Mesh& mesh, std::size_t v) {
   return {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
 }
 
-/// Half a unit in the last place of the positions, times four.
+/// Four times half a unit in the last place of the positions.
 double noise_of(const Mesh& mesh) {
   double largest = 0, farthest = 0;
   bool is_float = true;
@@ -77,7 +77,7 @@ double snapped(double value, double noise) {
   return std::abs(value - place) <= std::min(noise, 0.25 / kSteps) ? place : value;
 }
 
-/// Length along a vertical, in metres; large relative to the rounding of coordinates.
+/// A length along a vertical, in metres, that is large relative to the rounding of coordinates.
 constexpr double kRise = 1000;
 
 }  // namespace
@@ -249,7 +249,7 @@ void SpaceJudge::judge_met(const Facet& facet, std::uint32_t id, const Verticals
     const float* heights = band.heights(row);
     for (int col = begin; col <= end; ++col) {
       if (std::isnan(heights[col])) continue;
-      // Corners relative to the sample: heights along its vertical, and areas seen along it.
+      // Corners relative to the sample: heights along its vertical, and areas seen along the vertical.
       const Verticals::Line& line = verticals.at(col, row);
       std::array<Vector, 3> away{};
       for (std::size_t k = 0; k < 3; ++k) away[k] = minus(corners.at[k], line.sample);

@@ -1,9 +1,9 @@
 // Judging in space: the triangle and the point where a sample's vertical meets the mesh.
 //
 // The mesh is converted to the map, where everything except heights is judged. An error is measured along the vertical
-// of a sample, the straight line of all heights there, from the sample to the triangle that it meets. The border of a
-// mesh is a chord of a curved line of samples, so some verticals there meet no triangle. Then the nearest point of the
-// triangle that covers the sample on the map gives the mesh's height.
+// of a sample (the straight line of all heights there), from the sample to the triangle that the vertical meets. The
+// border of a mesh is a chord of a curved line of samples, so some verticals there meet no triangle. There the mesh's
+// height is that of the nearest point of the triangle that covers the sample on the map.
 //
 // Edges are straight in space and slightly bent on the map, so a triangle may meet verticals of samples outside it on
 // the map. The bend at the middle of its edges gives the margin.
@@ -23,7 +23,8 @@
 namespace scarp::judge {
 
 /// A mesh in space converted to the map: positions in the raster's x, y and heights. A coordinate is snapped to a 256th
-/// of a sample if rounding in the file may have moved it that far. kInput for a vertex without a position on the map.
+/// of a sample if rounding in the file may have moved it that far. Fails with kInput for a vertex without a position on
+/// the map.
 Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh);
 
 /// The field without its frame in space.
@@ -61,14 +62,14 @@ class SpaceJudge {
   /// Number of triangles that face down in space but not on the map, or vice versa: an edge bends on the map beyond the
   /// third corner.
   std::uint64_t folds() const { return folded_.size(); }
-  /// For each, a sample near the middle of its longest edge, unless that is a corner: as a vertex it may unfold the
-  /// triangle.
+  /// For each fold, a sample near the middle of its longest edge, unless that is a corner. This sample as a vertex may
+  /// unfold the triangle.
   std::vector<Offender> unfolding() const;
   /// The largest bend of a triangle's edges on the map, in samples.
   double bend(std::uint32_t id) const { return bends_[id]; }
   /// Offers the errors of the samples whose verticals meet the triangle; `facet` is the triangle on the map.
   void judge_met(const Facet& facet, std::uint32_t id, const Verticals& verticals, Band& band) const;
-  /// mesh − sample for a sample whose vertical meets no triangle: at the nearest point of the triangle's border, seen
+  /// mesh − sample for a sample whose vertical meets no triangle, at the nearest point of the triangle's border seen
   /// along the vertical.
   double error_beside(std::uint32_t id, int col, int row, const Verticals& verticals) const;
 

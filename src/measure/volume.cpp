@@ -1,16 +1,15 @@
 // The volume between two surfaces of triangles.
 //
-// Above the part that two triangles have in common the difference of their heights is linear. The part is a convex
+// Above the intersection of two triangles, the difference of their heights is linear. The intersection is a convex
 // polygon: the smaller triangle, clipped by the three sides of the larger one (Sutherland and Hodgman 1974). A fan of
-// triangles covers it, and the integrals of the positive and of the negative part of a linear function over a triangle
-// are formulas in its values at the corners. No sampling, no tolerance: the result is that of the surfaces up to the
+// triangles covers the polygon. The integrals of the positive and of the negative part of a linear function over a
+// triangle are formulas in its values at the corners. So the result has no sampling error or tolerance, only the
 // rounding of doubles.
 //
-// Triangles of one surface have sides in common, and most pairs that are near each other have nothing else. Exact signs
-// decide whether a side separates two triangles, so that such a pair counts nothing at all, and the volumes of a
-// surface against itself are exactly 0. Pairs are found by a tree of boxes. Each triangle of the surface with more
-// triangles is worked on alone; sums are made in the order of triangles, in parts of fixed size, whatever the number
-// of threads.
+// Most near pairs of triangles of one surface have only a side in common. Exact signs decide whether a side separates
+// two triangles, so that such a pair adds exactly 0, and the volumes of a surface against itself are exactly 0. Pairs
+// are found by a tree of boxes. Each triangle of the surface with more triangles is processed separately. Sums are in
+// the order of triangles, in parts of fixed size, for any number of threads.
 #include "measure/volume.h"
 
 #include <fmt/core.h>
@@ -42,13 +41,13 @@ namespace scarp {
 namespace judge {
 namespace {
 
-/// A corner of a part of a triangle. z lies in the plane of the triangle; later it is a difference of heights.
+/// A corner of a part of a triangle. At first, z is the height of the triangle's plane; later, a difference of heights.
 struct Corner {
   double x = 0, y = 0, z = 0;
-  int of = -1;  ///< the corner of the triangle that it is; −1: a new one
+  int of = -1;  ///< index of the same corner of the triangle; −1: a new corner
 };
 
-/// A triangle that lines have clipped. Three lines make at most 9 corners of 3, however their signs are rounded.
+/// A triangle that lines have clipped. Three lines turn 3 corners into at most 9, however signs are rounded.
 struct Part {
   std::array<Corner, 12> corners;
   std::size_t count = 0;
@@ -56,13 +55,13 @@ struct Part {
   void add(const Corner& corner) { corners[count++] = corner; }
 };
 
-/// On which side of each side of one triangle the corners of another lie: signs[k][i] is that of corner i and of the
-/// side across from corner k; 1 is inside.
+/// The position of one triangle's corners relative to another's sides: signs[k][i] is for corner i and the side
+/// opposite to corner k; 1 is inside.
 using Signs = std::array<std::array<int, 3>, 3>;
 
 Point2 corner(const PlanTriangle& plan, std::size_t k) { return {plan.x[k], plan.y[k]}; }
 
-/// Nothing if a side of `a` has all of `b` on its far side, or on it.
+/// None if `b` lies entirely on a side of `a` or on its far side.
 std::optional<Signs> find_signs(const PlanTriangle& a, const PlanTriangle& b) {
   Signs signs;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -77,8 +76,8 @@ std::optional<Signs> find_signs(const PlanTriangle& a, const PlanTriangle& b) {
   return signs;
 }
 
-/// The distance of a corner from a side, times its length: positive inside, and as exact signs have it for corners of
-/// the triangle itself.
+/// The distance of a corner from a side, times the side's length: positive inside; corners of the triangle itself have
+/// the exact sign.
 double distance_from(const PlanTriangle& by, int side, const Corner& at, const Signs& signs) {
   const double rounded = by.weight(side, at.x, at.y);
   if (at.of < 0) return rounded;
@@ -103,7 +102,8 @@ Part clip(const Part& part, const PlanTriangle& by, int side, const Signs& signs
   return inner;
 }
 
-/// The height of a triangle at a place in it: between those of its corners, whatever is rounded, and exact at them.
+/// The height of a triangle at a place in it. It is between the heights of its corners despite rounding, and exact at
+/// corners.
 double height_at(const Facet& facet, double x, double y) {
   std::array<double, 3> weights{};
   double sum = 0;
@@ -118,7 +118,8 @@ double height_at(const Facet& facet, double x, double y) {
   return height;
 }
 
-/// Adds the two sides of a linear function over a triangle with that area, from its values at the corners.
+/// Adds the integrals of the positive and negative parts of a linear function over a triangle, from its values at the
+/// corners.
 void add_triangle(double area, double a, double b, double c, Prism& prism) {
   const double all = area * ((a + b + c) / 3);
   if (a >= 0 && b >= 0 && c >= 0) {
@@ -126,7 +127,7 @@ void add_triangle(double area, double a, double b, double c, Prism& prism) {
   } else if (a <= 0 && b <= 0 && c <= 0) {
     prism.cut -= all;
   } else {
-    // One corner is alone on its side of the line where the function is 0, and cuts off a triangle there.
+    // The line on which the function is 0 separates one corner, and cuts off a triangle there.
     const bool is_up = (a > 0) + (b > 0) + (c > 0) == 1;
     const auto is_alone = [&](double value) { return (value > 0) == is_up; };
     if (is_alone(b)) std::swap(a, b);
@@ -137,7 +138,7 @@ void add_triangle(double area, double a, double b, double c, Prism& prism) {
   }
 }
 
-/// The integrals over a part whose z are differences.
+/// The integrals over a part with differences as z.
 Prism integrate(const Part& part) {
   Prism prism;
   const Corner& first = part.corners[0];
@@ -163,7 +164,7 @@ Prism find_prism(const Facet& from, const Facet& to) {
   const auto of_from = find_signs(from.plan, to.plan);
   const auto of_to = of_from ? find_signs(to.plan, from.plan) : std::nullopt;
   if (!of_to) return {};
-  // The smaller triangle is clipped, so that no corner comes from a place far outside.
+  // Clips the smaller triangle, so that no corner is computed from a place far outside.
   const bool is_from_small = from.plan.double_area() <= to.plan.double_area();
   const Facet &small = is_from_small ? from : to, &large = is_from_small ? to : from;
   const Signs& signs = is_from_small ? *of_to : *of_from;
@@ -200,7 +201,7 @@ Point2 place_of(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
   return {at[0], at[1]};
 }
 
-/// True if a triangle without area seen from above has one in space: it stands upright.
+/// True if a triangle without area seen from above has an area in space: it is vertical.
 bool is_upright(const Mesh& mesh, std::size_t triangle) {
   const auto at = [&](std::size_t corner, std::size_t axis) {
     return mesh.positions[3 * std::size_t{mesh.triangles[3 * triangle + corner]} + axis];
@@ -213,7 +214,7 @@ bool is_upright(const Mesh& mesh, std::size_t triangle) {
   return false;
 }
 
-/// The mesh has one height above each place that it covers, up to rounding. `name` is the first or the second.
+/// Checks that the mesh has one height above each place that it covers, up to rounding. `name`: first or second.
 Result<void> check_surface(const Mesh& mesh, const std::string& name, const Run& run, ProgressGate& gate) {
   if (Result<void> usable = judge::check_mesh(mesh); !usable) {
     std::string& message = usable.error().message;
@@ -257,7 +258,7 @@ class PlacedMesh {
       : mesh_(mesh), shift_{mesh.origin[0] - origin[0], mesh.origin[1] - origin[1], mesh.origin[2] - origin[2]} {}
 
   std::size_t triangle_count() const { return mesh_.triangle_count(); }
-  /// False if the triangle has no area. Rounding may turn one that is that thin; then none of its pairs counts.
+  /// False if the triangle has no area. Rounding may turn a very thin triangle over; then none of its pairs counts.
   bool get(std::size_t triangle, Facet& facet) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t v = mesh_.triangles[3 * triangle + k];
@@ -286,7 +287,8 @@ class TriangleFinder {
  public:
   explicit TriangleFinder(const PlacedMesh& mesh) : left_(INFINITY), bottom_(INFINITY), tree_(build(mesh)) {}
 
-  /// Calls visit(triangle) for all whose boxes meet that of the triangle, in an order that depends on nothing else.
+  /// Calls visit(triangle) for all triangles whose boxes meet the box of `plan`, in an order that depends on nothing
+  /// else.
   template <class Visit>
   void visit(const PlanTriangle& plan, const Visit& visit) const {
     const Box box = box_of(plan);
@@ -334,7 +336,7 @@ struct Sums {
   }
 };
 
-/// Adds up what `add` finds above each of so many triangles. False if the caller stops it.
+/// Sums up the results of `add` for each triangle. Returns false if the caller stops.
 bool sum_up(std::size_t triangles, const Run& run, ProgressGate& gate,
             FunctionRef<void(std::size_t triangle, Sums& sums)> add, Volumes& volumes) {
   constexpr std::size_t kTogether = 256;
@@ -361,13 +363,13 @@ bool sum_up(std::size_t triangles, const Run& run, ProgressGate& gate,
   return goes_on;
 }
 
-/// The part of a surface that is not in common: what is left by rounding alone is nothing.
+/// The area of a surface outside the common part; a remainder from rounding counts as 0.
 double outside(double area, double common) {
   const double left = area - common;
   return left > 1e-12 * area ? left : 0;
 }
 
-/// Decides which mesh comes first in the work, so that swapped arguments give the same bits.
+/// Decides which mesh is processed first, so that swapped arguments give the same bits.
 bool is_led_by(const Mesh& a, const Mesh& b) {
   if (a.triangle_count() != b.triangle_count()) return a.triangle_count() > b.triangle_count();
   return std::tie(a.origin, a.positions, a.triangles) <= std::tie(b.origin, b.positions, b.triangles);

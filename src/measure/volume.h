@@ -12,11 +12,11 @@ struct Prism {
   double area = 0;  ///< area of the part, seen from above
 };
 
-/// From `from` to `to`, above all that their insides have in common. All is exactly 0 where that is nothing, and so are
-/// both volumes where the two are one triangle.
-/// REQUIRES: corners are counter-clockwise, of sizes as for exact_orient().
+/// The prism from `from` to `to`, above the intersection of their interiors. All values are exactly 0 if it is empty.
+/// Both volumes are exactly 0 if the two are one triangle. REQUIRES: corners are counter-clockwise, of sizes as for
+/// exact_orient().
 Prism find_prism(const Facet& from, const Facet& to);
-/// From the triangle to a level, above all of it.
+/// The prism from the whole triangle to a level.
 Prism find_prism(const Facet& from, double level);
 
 }  // namespace scarp::judge

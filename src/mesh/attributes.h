@@ -1,4 +1,4 @@
-// Attributes of a vertex besides its position and normal.
+// Attributes of a vertex other than position and normal.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,13 @@
 // Conversion of a terrain to a solid: top, walls, floor.
 //
-// A border vertex at which two parts of the domain touch (two cells that share a corner and no edge) needs care. Its
-// vertical wall edge would have four triangles. So each fan of triangles around such a vertex first gets a separate
-// vertex. Then every border vertex has one incoming and one outgoing border edge, and walls close around it.
+// At a border vertex where two parts of the domain touch (two cells that share only a corner), the vertical wall edge
+// would have four triangles. So each fan of triangles around such a vertex first gets a separate vertex. Then every
+// border vertex has one incoming and one outgoing border edge, and walls close around it.
 //
-// The floor keeps the corners of the outline only. Between two of them a wall is a polygon in a vertical plane: above
-// one straight edge of the floor, the border vertices of the terrain in order. Such a polygon ("monotone mountain") is
-// triangulated from one end to the other with a stack: every left turn is cut off (Fournier and Montuno 1984,
-// "Triangulating simple polygons and equivalent problems").
+// The floor keeps only the corners of the outline. Between two corners, a wall is a polygon in a vertical plane: one
+// straight edge of the floor, and above it the border vertices of the terrain in order. Such a polygon ("monotone
+// mountain") is triangulated from one end to the other with a stack. Every left turn is cut off (Fournier and Montuno
+// 1984, "Triangulating simple polygons and equivalent problems").
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ class Closing {
     }
   }
 
-  /// Adds the wall below the border from one corner to the next; seen from outside the first is on the left.
+  /// Adds the wall below the border from one corner to the next; seen from outside, the first corner is on the left.
   void add_wall(const std::vector<std::uint32_t>& run) {
     const std::uint32_t low_first = drop(run.front()), low_last = drop(run.back());
     const double along[2] = {at(run.back())[0] - at(run.front())[0], at(run.back())[1] - at(run.front())[1]};

@@ -26,7 +26,7 @@ class ContourTracer {
     height_ = height;
   }
 
-  /// The line through a triangle at this height; empty if found before, or a single point.
+  /// The line through a triangle at this height; empty if the line was found before or is a single point.
   Contour trace(std::uint32_t triangle) {
     Contour line{height_, false, {}};
     if (done_[triangle] == number_) return line;
@@ -55,13 +55,14 @@ class ContourTracer {
  private:
   bool is_above(std::uint32_t half_edge) const { return mesh_.vertex(mesh_.triangles[half_edge])[2] >= height_; }
 
-  /// The edge where the line enters the triangle, with higher ground on its left: the edge that falls below.
+  /// The edge where the line, with higher ground on its left, enters the triangle: the edge that falls below the
+  /// height.
   std::uint32_t entry_of(std::uint32_t triangle) const {
     std::uint32_t h = 3 * triangle;
     while (!is_above(h) || is_above(next_half_edge(h))) h = next_half_edge(h);
     return h;
   }
-  /// The edge that rises above.
+  /// The edge that rises above the height.
   std::uint32_t exit_of(std::uint32_t entry) const {
     std::uint32_t h = next_half_edge(entry);
     while (is_above(h) || !is_above(next_half_edge(h))) h = next_half_edge(h);

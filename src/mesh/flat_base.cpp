@@ -1,19 +1,19 @@
 // Problem: a floor for a solid needs the outline of the terrain without inner vertices. Triangulating an outline with
-// holes from scratch needs a polygon triangulator. But a triangulation exists already, with too many vertices.
+// holes from scratch needs a polygon triangulator. But there already is a triangulation, with too many vertices.
 //
 // Idea: remove the inner vertices, one at a time. Removing v leaves a star-shaped hole, the ring of its neighbours.
 // Three successive neighbours p, q, r are an ear that may be cut off if they turn left and v lies strictly left of p→r.
-// The rest is still star-shaped around v. The test uses these four points only, so cutting an ear changes the answer
-// for its two neighbours only. While more than four neighbours remain, such an ear exists (of the ears of any
-// triangulation of the ring, two or more, one does not touch v). Of the last four, v may lie on a diagonal. Vertices
+// The rest is still star-shaped around v. The test uses only these four points, so cutting an ear changes only the
+// results for its two neighbours. While more than four neighbours remain, such an ear exists: any triangulation of the
+// ring has two or more ears, and one of them does not touch v. With four neighbours, v may lie on a diagonal. Vertices
 // with few neighbours are removed first, which keeps rings short. Orientation is exact, and the border and all edges
-// along it are never changed, so the result fits the walls.
+// along it never change, so the result fits the walls.
 //
-// Then border vertices that lie between their neighbours on a line along x or y are removed. Such a vertex has half a
-// star, whose ring is closed by that line. v lies on the line, which suffices for the test above: an ear at either end
-// of the line has v on its wrong side, and among the others one always exists.
+// Then border vertices that lie between their neighbours on a line along x or y are removed. Such a vertex v has half a
+// star, whose ring is closed by that line. The test above still works with v on the line: an ear at either end of the
+// line has v on its wrong side, and another ear always exists.
 //
-// Slanted borders give rings whose corners are collinear except for rounding. Ears that thin are not cut, since a
+// Slanted borders cause rings whose corners are collinear except for rounding. Such thin ears are not cut, since a
 // writer that rounds again would fold them; a vertex that needs one is kept.
 //
 // This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
@@ -70,8 +70,8 @@ class FlatBase {
   }
   bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
 
-  /// True if a triangle turns left, and still will when its corners are moved and rounded once more: by its height
-  /// relative to its longest side.
+  /// True if a triangle turns left even after its corners are moved and rounded again, judged by its height relative to
+  /// its longest side.
   bool is_firm(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     constexpr double kThinnest = 0x1p-36;
     const auto side = [&](std::uint32_t from, std::uint32_t to, std::size_t axis) {
@@ -144,8 +144,8 @@ class FlatBase {
     ring_.back().next = 0;
   }
 
-  /// True for a straight vertex of the border, whose neighbours along it end its ring. Lines along an axis remain
-  /// straight, and the wall below them vertical, under any change of single coordinates: scaling, moving, rounding.
+  /// True for a straight border vertex, whose neighbours on the border end its ring. Scaling, moving or rounding single
+  /// coordinates keeps lines along an axis straight, and the walls below them vertical.
   bool is_straight(std::uint32_t v) const {
     const double *from = &positions_[3 * std::size_t{ring_.back().start}], *at = &positions_[3 * std::size_t{v}],
                  *to = &positions_[3 * std::size_t{ring_.front().start}];

@@ -1,5 +1,5 @@
-// Sorts triangles by place, then for the vertex cache (meshoptimizer's Tipsify: Sander, Nehab and Barczak 2007) in
-// chunks. These fit the processor's cache and are distributed over threads.
+// Sorts triangles by place, then in chunks for the vertex cache (meshoptimizer's Tipsify: Sander, Nehab and Barczak
+// 2007). Chunks fit the processor's cache and are distributed over threads.
 #include "mesh/order.h"
 
 #ifdef SCARP_WITH_MESHOPTIMIZER
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_pl
 
 }  // namespace
 
-// Each triangle is sorted by its first corner along the curve; triangles of one cell keep their order.
+// Triangles are sorted by their first corner along the curve; triangles of one cell keep their order.
 std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
                                          FindPlaces find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
@@ -176,10 +176,10 @@ void order_chunk(std::uint32_t* corners, std::size_t count) {
 /// Chunks of triangles to sort.
 constexpr std::size_t kChunkCorners = 3 * kChunkTriangles;
 
-/// New ids of the vertices, in the order of their first use by corners; kUnused for unused ones. Returns the number
-/// used.
+/// New ids of the vertices, in the order of their first use by corners; kUnused for unused vertices. Returns the number
+/// of used ones.
 std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int threads, std::vector<std::uint32_t>& ids) {
-  // The first chunk that uses each vertex; in a chunk one thread numbers them.
+  // For each vertex, the first chunk that uses it; one thread numbers the vertices of a chunk.
   std::vector<std::uint32_t> owners(ids.size(), kUnused);
   parallel_for_parts(corners.size(), kChunkCorners, threads, [&](std::size_t first, std::size_t end) {
     const auto chunk = static_cast<std::uint32_t>(first / kChunkCorners);

@@ -1,4 +1,4 @@
-// The order of a mesh in a file, computed before the mesh is complete.
+// The order of a mesh's vertices and triangles in a file, computed before the mesh is complete.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// Writes the positions of the vertices [first, end), seen from above: relative to any origin, NaN for vertices without
-/// triangles. Called for parts of the vertices, repeatedly, by several threads at once.
+/// Writes the positions of the vertices [first, end), seen from above, relative to any origin; NaN for vertices without
+/// triangles. Several threads call it at once, repeatedly, for parts of the vertices.
 using FindPlaces = FunctionRef<void(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places)>;
 
 /// New numbers of vertices.
@@ -31,8 +31,9 @@ VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t ve
 std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
                                          FindPlaces find_places, int threads);
 
-/// Sorts the triangles locally for the vertex cache and numbers vertices by first use; after sort_by_place() the result
-/// is optimize_order()'s. Replaces corners by the new numbers. Without meshoptimizer triangles keep their order.
+/// Sorts the triangles locally for the vertex cache and numbers vertices by first use. After sort_by_place() the result
+/// equals that of optimize_order(). Replaces corners by the new numbers. Without meshoptimizer triangles keep their
+/// order.
 VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads);
 
 }  // namespace scarp

@@ -1,12 +1,12 @@
 // A large print consists of print tiles. The cuts follow rows and columns of samples, where the mesh can have edges
 // whose ends lie on samples. A tab in the middle of each shared edge is a trapezoid that is wider at its head, so that
-// print tiles interlock like a jigsaw and slide together from above.
+// print tiles interlock like a jigsaw and are assembled from above.
 //
-// Every cut is a polyline across the raster. simplify() inserts it into the mesh as a soft line, so that triangles lie
-// on one side of it, and each triangle belongs to the print tile that contains its centre. Both neighbours get their
+// Every cut is a polyline across the raster. simplify() inserts it into the mesh as a soft line, so that each triangle
+// lies on one side of the line, and belongs to the print tile that contains its centre. Both neighbours get their
 // vertices from the same mesh, so their edges are identical.
 //
-// A gap is two polylines, each half its width from the cut; no print tile covers the space between.
+// A gap lies between two polylines, each half the gap's width from the cut; no print tile covers it.
 
 #include "mesh/print_tiles.h"
 
@@ -23,7 +23,7 @@ namespace {
 using Point2 = std::array<double, 2>;
 
 constexpr int kLeastCells = 2;                               // smallest number of cells across a print tile
-constexpr int kLeastTabCells = 12;                           // smallest number across a print tile with tabs
+constexpr int kLeastTabCells = 12;                           // smallest number of cells across a print tile with tabs
 constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // relative to the print tile that the tab touches
 
 /// The indices of samples at which print tiles begin and end.
@@ -53,8 +53,8 @@ std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double d
   return cut;
 }
 
-/// The polyline offset by `distance` to its left in the metric of cells; its ends keep their position along. In (along,
-/// across).
+/// The polyline offset by `distance` to its left, in units of `cell`; its ends do not move along the cut. Points are
+/// (along, across).
 std::vector<Point2> shift(const std::vector<Point2>& line, double distance, Point2 cell) {
   if (distance == 0) return line;
   const auto normal = [&](std::size_t k) {  // normal of the segment from point k
@@ -77,7 +77,7 @@ void turn_over(std::vector<Point2>& line) {
 }
 
 /// True if the point lies before a cut, by the number of crossings between it and the far end. The cut continues
-/// straight at both ends. In (along, across).
+/// straight at both ends. Points are (along, across).
 bool is_before(const std::vector<Point2>& cut, Point2 p) {
   bool before = false;
   for (std::size_t k = 0; k + 1 < cut.size(); ++k) {
@@ -107,7 +107,7 @@ Result<PrintTilePlan> PrintTilePlan::make(int cols, int rows, const PrintTileOpt
   SCARP_RETURN_IF_ERROR(check_span("rows", rows, options.rows, options.dovetail));
   const std::vector<int> along_cols = divide(cols, options.columns), along_rows = divide(rows, options.rows);
   const double width = (cols - 1.0) / options.columns, height = (rows - 1.0) / options.rows;
-  // A tab and its gap must not meet its neighbours': half the narrower side exceeds their total.
+  // A tab and its gap must not meet neighbouring tabs and gaps: half the narrower side exceeds their total.
   const double narrowest = std::min(width * options.cell[0], height * options.cell[1]);
   const double widest = narrowest * (options.dovetail ? kNeck / 4 : 0.25);
   if (!(options.gap >= 0) || options.gap > widest) {

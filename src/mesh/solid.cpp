@@ -1,8 +1,8 @@
-// Facts of a solid as printing software reads it, and solids that pass its checks.
+// Facts of a solid in the view of printing software, and solids that pass the checks of such software.
 //
 // Such software reads positions as float32 and merges vertices at equal positions. So positions are rounded and merged
 // before judging. The requirements for a surface: every edge runs once in each direction, the triangles at each vertex
-// form one fan, none has lost its area, and each part encloses a volume.
+// form one fan, every triangle has an area, and each part encloses a volume.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ constexpr const char* kPlacementEntry = "placement";
 
 float rounded(double value) { return static_cast<float>(value) + 0.0f; }  // and no −0
 
-/// The triangles with the lowest vertex at each position.
+/// The triangles, with the lowest vertex id at each position.
 std::vector<std::uint32_t> weld(const std::vector<float>& places, const std::vector<std::uint32_t>& triangles) {
   const std::size_t count = places.size() / 3;
   std::vector<std::uint32_t> order(count), first(count);
@@ -141,7 +141,7 @@ class Inspection {
     }
   }
 
-  /// Volume down to the lowest vertex; negative for a triangle that faces down.
+  /// Volume below the triangle down to the lowest vertex; negative for a triangle that faces down.
   double volume_under(std::uint32_t t) const {
     const auto a = at(triangles_[3 * t]), b = at(triangles_[3 * t + 1]), c = at(triangles_[3 * t + 2]);
     const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;

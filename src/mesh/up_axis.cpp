@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kUp = "up";
 
-/// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 stays 0.
+/// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 remains 0.
 template <class T>
 void turn(T* at) {
   const T y = at[1];

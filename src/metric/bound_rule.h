@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// The largest double whose product with `weight` is at most `value`, as real numbers, or the one below it.
+/// The largest double whose product with `weight`, as real numbers, is at most `value`; or the double below it.
 double divide_down(double value, double weight);
 
 /// The largest float that is at most `value`.
@@ -21,15 +21,15 @@ struct BoundRule {
   double reserve = 0;  ///< for the rounding of samples
   double aim = 1;      ///< fraction of each bound
 
-  /// The largest float that is at most `asked` minus the reserve; +infinity for none.
+  /// The largest float that is at most `asked` minus the reserve; +infinity: no bound.
   float bound(double asked) const;
   float aim_at(float bound) const;
 
-  /// kPromise: the requested bound of a sample is below its rounding.
+  /// The kPromise error for a requested bound below the sample's rounding.
   Error refuse(Point at, double asked) const;
 };
 
-/// kUsage: an invalid value in a raster of weights or bounds.
+/// The kUsage error for an invalid value in a raster of weights or bounds.
 Error refuse_value(const char* what, Point at, float value, const char* rest = "");
 
 }  // namespace scarp

@@ -18,7 +18,7 @@ constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
 tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
 
-/// At a sample that is not ignored.
+/// The requested bound at a sample that is not ignored.
 double asked_of(const SimplifyOptions& options, std::optional<double> max_error, std::size_t i, double factor) {
   const Tolerances& tolerances = options.tolerances;
   double asked = max_error.value_or(tolerances.values.empty() ? 0 : HUGE_VAL);

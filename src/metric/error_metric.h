@@ -1,4 +1,4 @@
-// The error metric: it measures how well a triangle fits the samples. The engine has no other access to samples.
+// The error metric measures how well a triangle fits the samples. The engine accesses samples only through it.
 //
 // All error options (weights, tolerances, importance, channels) are implemented behind this interface. Refinement,
 // batches and data-dependent edges do not depend on them.
@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// How well a triangle fits the samples in it (closed: samples on its edges count).
+/// The fit of a triangle to the samples in it (closed: samples on its edges count).
 struct Fit {
   Candidate worst{-1, {}};    ///< the most important sample; error < 0: none
   double guard = 0;           ///< bound of |worst.error − exact error|
@@ -25,14 +25,14 @@ struct Fit {
   bool complete = true;       ///< false: stopped early, since max_error or sum_squares is above its limit
 };
 
-/// How carefully to scan a triangle.
+/// The parameters of a scan.
 struct FitQuestion {
   bool squares = false;
-  int lattice = 1;  ///< for scores: measures errors on a lattice this many times finer
+  int lattice = 1;  ///< for scores: factor by which the lattice of errors is finer
   double give_up_max = std::numeric_limits<double>::infinity();
   double give_up_squares = std::numeric_limits<double>::infinity();
 
-  /// True if a scan with these results may stop early. Without limits none stops.
+  /// True if a scan with these results may stop early; never without limits.
   bool is_given_up(double max_error, double sum_squares) const {
     return (!(max_error < give_up_max) && give_up_max != std::numeric_limits<double>::infinity()) ||
            (!(sum_squares < give_up_squares) && give_up_squares != std::numeric_limits<double>::infinity());
@@ -44,7 +44,7 @@ class ErrorMetric {
   virtual ~ErrorMetric() = default;
   /// REQUIRES: corners are valid samples, orient(corners) > 0.
   virtual Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const = 0;
-  /// The most important sample of those that exceed their bound as real numbers; nothing if none does. `fit` is this
+  /// The most important sample of those that exceed their bound as real numbers; none if no sample does. `fit` is this
   /// metric's complete fit of the same corners.
   virtual std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const = 0;
   /// The importance of a sample exactly at its bound, if importance is an error; else 0.

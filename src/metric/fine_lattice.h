@@ -10,7 +10,8 @@
 
 namespace scarp {
 
-/// The finest lattice for scans of triangles. Without a limit one sliver across a large raster would dominate the cost.
+/// The finest lattice for scans of triangles. Without this limit, one sliver across a large raster would dominate the
+/// cost.
 inline constexpr int kFinestLattice = 32;
 
 /// Bilinear interpolant at the lattice point (x, y) / lattice; NaN if a nodata sample contributes.
@@ -24,8 +25,8 @@ inline double interpolate(const float* samples, std::int32_t cols, std::int64_t 
   return (1 - v) * top + v * bottom;
 }
 
-/// Calls visit(x, y, fx, fy) for each point of the refined lattice in the closed triangle, x, y in refined steps and
-/// fx, fy in samples, row by row.
+/// Calls visit(x, y, fx, fy) row by row for each point of the refined lattice in the closed triangle; x, y in refined
+/// steps, fx, fy in samples.
 template <class Visit>
 void scan_fine(std::array<Point, 3> corners, int lattice, Visit&& visit) {
   for (Point& p : corners) p = {p.x * lattice, p.y * lattice};
@@ -35,8 +36,8 @@ void scan_fine(std::array<Point, 3> corners, int lattice, Visit&& visit) {
   });
 }
 
-/// The lattice of a triangle under the control f: ⌈(width + height) / (2 · area · f)⌉, but no finer than allowed and no
-/// coordinate beyond the lattice; 1 if f is 0 (off).
+/// The lattice of a triangle under the control f: ⌈(width + height) / (2 · area · f)⌉, but no finer than allowed, and
+/// with no coordinate beyond the lattice; 1 if f is 0 (off).
 inline int find_lattice(const std::array<Point, 3>& corners, double f) {
   if (!(f > 0)) return 1;
   const auto [low_x, high_x] = std::minmax({corners[0].x, corners[1].x, corners[2].x});

@@ -36,7 +36,7 @@ void find_worst(const ScanKernels& kernels, const Plane& plane, const float* sam
   }
 }
 
-/// Adds the worst and the squares of a row's samples.
+/// Adds the worst error and the squared errors of a row's samples.
 void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int32_t first, std::int32_t last,
              Candidate& worst, double& squares) {
   const double row_height = plane.row_height(y);
@@ -48,7 +48,7 @@ void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int3
   }
 }
 
-/// By the plane's own arithmetic.
+/// Fits with the plane's own arithmetic.
 template <bool kSquares>
 Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question) {
   const Plane plane = Plane::through(corners, heights_at(raster, corners));
@@ -90,7 +90,7 @@ void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, co
   fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
 }
 
-/// The worst among the samples that exceed the threshold as real numbers.
+/// The worst sample of those that exceed the threshold as real numbers.
 std::optional<Candidate> scan_exactly(const Raster& raster, const std::array<Point, 3>& corners, const Plane& plane,
                                       double threshold) {
   const auto heights = heights_at(raster, corners);
@@ -119,7 +119,7 @@ std::optional<Candidate> HeightMetric::find_candidate(const std::array<Point, 3>
   const Candidate& worst = fit.worst;
   if (worst.error > threshold_ + fit.guard) return worst;
   if (worst.error < threshold_ - fit.guard) return std::nullopt;
-  // A level plane has no guard: one subtraction rounds, monotonically, so only equality is uncertain.
+  // A level plane has no guard: only one subtraction rounds, and monotonically, so only equality is uncertain.
   if (fit.guard == 0 && (threshold_ == 0 || worst.error != threshold_)) return std::nullopt;
   return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
 }

@@ -51,10 +51,10 @@ Fit LatticeMetric::fit(const std::array<Point, 3>& corners, const FitQuestion&) 
 Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   const double least = threshold_ - plane.guard;
-  double worst = std::nextafter(least, -1.0);  // an error equal to `least` is uncertain, too
+  double worst = std::nextafter(least, -1.0);  // an error equal to `least` is also uncertain
   Point at;
   const ScanKernels& kernels = scan_kernels();
-  // Powers of two: each product rounds as slope_x times steps does.
+  // kLatticeSteps is a power of two, so each product rounds like slope_x times steps.
   const double slope = plane.slope_x * kLatticeSteps, base = plane.base.x / double{kLatticeSteps};
   Fit fit;
   fit.guard = plane.guard;

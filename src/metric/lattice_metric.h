@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// Heights of lattice points: set by set(), otherwise those of their samples.
+/// Heights of lattice points, from set() or else from their samples.
 class LatticeHeights {
  public:
   explicit LatticeHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
@@ -51,11 +51,11 @@ class LatticeHeights {
   SampleView samples_;
   std::vector<Slot> slots_;
   std::size_t taken_ = 0;
-  bool has_samples_ = false;  ///< set() changed heights of samples
+  bool has_samples_ = false;  ///< true if set() changed heights of samples
 };
 
 /// Corners and candidates are in kLatticeSteps. Importance is the error over the bound if samples have individual
-/// bounds (row-major, +infinity for none), otherwise the error. Comparisons with bounds are exact.
+/// bounds (row-major, +infinity: no bound), otherwise the error. Comparisons with bounds are exact.
 class LatticeMetric final : public ErrorMetric {
  public:
   /// `heights` and the bounds must outlive it.
@@ -64,7 +64,7 @@ class LatticeMetric final : public ErrorMetric {
       : samples_(samples), heights_(heights), threshold_(threshold) {
     if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
   }
-  /// With individual bounds, whose rows `bounds` holds.
+  /// With individual bounds in the rows of `bounds`.
   LatticeMetric(const SampleView& samples, const LatticeHeights& heights, const Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 

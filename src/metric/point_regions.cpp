@@ -1,4 +1,4 @@
-// Regions of interest around scattered points: tolerances at places off any grid.
+// Regions of interest around scattered points: tolerances at places outside a grid.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,7 +35,7 @@ double distance_to(const RingBands::Edge& edge, double x, double y) {
   return std::hypot(x - edge.from[0] - t * ex, y - edge.from[1] - t * ey);
 }
 
-/// A polygon with its holes, or a line, as a ring there and back.
+/// A polygon with its holes, or a line as a ring in both directions.
 class RegionPart {
  public:
   RegionPart(std::vector<PlaceRing> rings, std::size_t region, double reach)
@@ -50,7 +50,7 @@ class RegionPart {
   std::size_t region() const { return region_; }
   const PlaceBox& box() const { return box_; }
 
-  /// 0 inside; infinity where it is not below `most`, nor at most the reach.
+  /// The distance, 0 inside; infinity unless it is below `most` or at most the reach.
   double distance(double x, double y, double most) const {
     if (x < box_.low[0] || x > box_.high[0] || y < box_.low[1] || y > box_.high[1]) return kFar;
     const double beside_x = std::max({0.0, box_.low[0] + reach_ - x, x - (box_.high[0] - reach_)});
@@ -133,7 +133,7 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
       const std::size_t region = parts[part].region();
       const double own = regions[region].tolerance, now = double{tolerances[i]};
       if (!(own < beyond) || (own >= now && (found == nullptr || (*found)[region]))) continue;
-      // From farther away it lowers no tolerance any more; one that has lowered none counts as found, too.
+      // From farther away, a region lowers no tolerance; a region that has lowered none also counts as found.
       const bool is_counted = found == nullptr || (*found)[region];
       const double most = is_counted && falloff > 0 ? falloff * (now - own) / (beyond - own) * (1 + 1e-12) : falloff;
       const double away = parts[part].distance(points.x[i], points.y[i], std::min(most, falloff));

@@ -1,6 +1,6 @@
 // Distances follow P. F. Felzenszwalb and D. P. Huttenlocher, "Distance Transforms of Sampled Functions", Theory of
 // Computing 8, 2012: the lower envelope of parabolas along each row, above the distances along the columns. The
-// envelope is built in stretches of a row that do not depend on the window, so neither does its rounding.
+// envelope is built in stretches of a row that do not depend on the window, so its rounding does not either.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -102,7 +102,7 @@ class RegionSamples {
     return (Envelope::kBytes + sizeof(ColumnWalk)) * static_cast<std::uint64_t>(widest());
   }
 
-  /// Lowers the bounds of a window's samples.
+  /// Lowers the bounds of samples in a window.
   void lower(const SampleWindow& window, float* out, std::ptrdiff_t stride) const {
     const std::int32_t first = std::max(window.row, top_), last = std::min(window.row + window.rows, bottom_);
     if (first >= last) return;
@@ -110,7 +110,7 @@ class RegionSamples {
     std::vector<ColumnWalk> walks;
     walks.reserve(widest());
     const std::int32_t end = window.col + window.cols;
-    // Without a falloff columns are independent.
+    // Without a falloff, columns are independent.
     for (std::int32_t begin = reach_ == 0 ? window.col : window.col / stretch_ * stretch_; begin < end;) {
       const std::int32_t next = begin > grid_.cols - stretch_ ? grid_.cols : begin + stretch_;
       const std::int32_t left = std::max(begin - reach_, left_);
@@ -127,7 +127,7 @@ class RegionSamples {
   }
 
  private:
-  /// Columns: of the first walk, and of the samples to lower.
+  /// Ranges of columns: for the first walk, and for the samples to lower.
   struct Stretch {
     std::int32_t left, from, to;
   };

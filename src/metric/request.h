@@ -13,7 +13,7 @@ struct Request : SimplifyOptions {
   Request(SimplifyOptions options) : SimplifyOptions(std::move(options)) {}
 
   Strategy strategy;
-  bool chose_effort = false;  ///< the effort was chosen by default
+  bool chose_effort = false;  ///< true: the effort was chosen by default
 };
 
 inline bool has_budget(const SimplifyOptions& options) {

@@ -21,7 +21,7 @@ struct MetricField {
 
 /// Keeps factors finite, so that errors still count.
 inline constexpr float kMostFactor = 1e30f;
-/// The factor of a sample ranked by error over bound. A bound of 0 outranks all others.
+/// The importance factor of a sample ranked by error over bound. A bound of 0 outranks all others.
 inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
@@ -30,7 +30,7 @@ struct MetricSettings {
   std::vector<MetricField> fields;  ///< at least one
   Norm norm = Norm::kSum;
   double threshold = 0;            ///< bound of the combined error, if `bounds` is null
-  const float* bounds = nullptr;   ///< bound of each sample, +infinity for none
+  const float* bounds = nullptr;   ///< bound of each sample, +infinity: none
   const float* factors = nullptr;  ///< importance = error · factor; null: the error
   bool per_bound = false;          ///< importance = error · per_bound(bound); without `factors`
   bool by_error = true;            ///< false: importance = factor
@@ -39,12 +39,12 @@ struct MetricSettings {
   double goal = 0;  ///< see ErrorMetric::goal()
 };
 
-/// Settings for heights alone with individual bounds, ranked by error over bound.
+/// Settings for heights only, with individual bounds, ranked by error over bound.
 MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
 
-/// With one field of scale 1 comparisons with bounds are exact. A norm of several fields is compared within its
-/// rounding on the safe side, exactly only for bound 0: a sample whose norm equals its bound may be inserted, but none
-/// above it remains.
+/// With one field of scale 1, comparisons with bounds are exact. A norm of several fields is compared within its
+/// rounding on the safe side, and exactly only for bound 0. So a sample whose norm equals its bound may be inserted,
+/// but no sample above its bound remains.
 class SampleMetric final : public ErrorMetric {
  public:
   explicit SampleMetric(MetricSettings settings);

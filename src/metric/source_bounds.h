@@ -21,25 +21,25 @@ bool has_source_bounds(const SimplifyOptions& options, bool is_streamed);
 
 class SourceBounds {
  public:
-  /// `tolerances`: by sample; must outlive it. `most`: an additional bound of all samples; +infinity for none.
+  /// `tolerances`: by sample; must outlive this. `most`: an additional bound of all samples; +infinity: none.
   SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule)
       : tolerances_(&tolerances), most_(most), rule_(rule) {}
-  /// The bounds from the options, with `factor` times the tolerances. Their sources must outlive it. REQUIRES: a max
-  /// error, or tolerances.
+  /// The bounds from the options, with tolerances multiplied by `factor`. The options' sources must outlive this.
+  /// REQUIRES: a max error, or tolerances.
   SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor);
 
   /// The targets of refinement in a window, `stride` floats a row. Fails with kUsage if a tolerance or weight is
   /// negative or NaN, or a weight is infinite, and as the sources do.
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
-  /// The same for whole rows of these samples, from `first` on. Also fails with kPromise where the requested bound is
-  /// below a sample's rounding.
+  /// The same for whole rows of these samples, from `first` on. Also fails with kPromise if a requested bound is below
+  /// its sample's rounding.
   Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
 
   /// Unprocessed tolerances or weights of rows. Fails as the source does. REQUIRES: has_values().
   Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
   bool has_values() const { return tolerances_ != nullptr || weights_ != nullptr; }
   bool has_weights() const { return weights_ != nullptr; }
-  /// The guaranteed bounds of the samples of a row with these values; empty values if !has_values().
+  /// The guaranteed bounds of the samples of a row with these values, which are empty if !has_values().
   void find_bounds(std::int32_t row, std::span<const float> values, std::span<float> bounds) const;
 
   /// True if the max error bounds every sample.

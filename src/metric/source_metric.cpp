@@ -18,7 +18,7 @@ void or_throw(const Result<void>& read) {
   if (!read) throw SourceFailure{read.error()};
 }
 
-/// The samples around some points, their bounds, and the points relative to the window.
+/// The samples around some points, the samples' bounds, and the points relative to the window.
 class Window {
  public:
   Window(const HeightField& field, double threshold, const SourceBounds* bounds, std::initializer_list<Point> points)

@@ -16,10 +16,10 @@ namespace {
 
 constexpr float kNoTolerance = std::numeric_limits<float>::infinity();
 
-/// Number of rows with about so many samples.
+/// Number of rows with about `samples` samples.
 int rows_of(int samples, int cols) { return std::max(1, samples / cols); }
 
-/// The tolerance for a raster value; `is_rounded`: to float32, maybe above the file's value.
+/// The tolerance for a raster value. `is_rounded`: the value was rounded to float32, maybe to above the file's value.
 float tolerance_of_value(float value, bool is_rounded) {
   if (std::isnan(value)) return kNoTolerance;
   return is_rounded ? std::nextafter(value, 0.0F) : value;  // at most the value in the file
@@ -105,8 +105,8 @@ class LookProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Scans all values, some rows at a time, from the top, and rejects negative ones. Returns the largest; nothing if none
-/// is valid.
+/// Scans all values from the top, some rows at a time, and rejects negative values. Returns the largest; none if no
+/// value is valid.
 Result<std::optional<float>> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
   constexpr int kSamples = 1 << 18;
   const int most = rows_of(kSamples, raster.cols);

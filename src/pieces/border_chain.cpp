@@ -109,7 +109,7 @@ Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, cons
   SCARP_TRY(const auto& strip, read_strip(field, line));
   std::vector<std::int32_t> kept;
   for (const BorderRun& run : runs_of(strip, line.steps)) {
-    // A half cell whose missing corner lies on the line has no surface along it; its run is one step.
+    // A half cell with its missing corner on the line has no surface along the line; its run is one step.
     if (run.has_surface && run.end - run.begin > 1) split_chord(strip.heights[1], run.begin, run.end, bound, kept);
     if (run.end < line.steps) kept.push_back(run.end);
   }

@@ -1,7 +1,7 @@
-// The border between two tiles: a line of samples, simplified on its own.
+// The border between two tiles: a line of samples, simplified separately.
 //
-// It depends only on the samples on the line and the cells next to it, so both tiles compute the same points. Their
-// meshes meet without a crack, and the tiles exchange no data.
+// The result depends only on the samples on the line and the cells next to it, so both tiles compute the same points.
+// Their meshes meet without a crack, although the tiles exchange no data.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct LineBound {
   LineBound(double same) : of_all(same) {}                     // NOLINT: implicit by design
   LineBound(std::span<const float> by_step) : own(by_step) {}  // NOLINT
   double of_all = 0;
-  std::span<const float> own;  ///< bounds by step from step 0, +infinity for none; EMPTY: `of_all` holds everywhere
+  std::span<const float> own;  ///< bounds by step from step 0, +infinity: none; EMPTY: `of_all` applies everywhere
 
   double at(std::int32_t step) const { return own.empty() ? of_all : double{own[static_cast<std::size_t>(step)]}; }
   /// The sample with the largest rank splits the chord: the largest error, or error / bound where bounds differ.
@@ -32,10 +32,10 @@ struct LineBound {
 };
 
 /// Returns the steps that become vertices, ascending and strictly between 0 and line.steps. Every sample of the line
-/// that belongs to the surface on either side lies within its bound, as a real number, of the chain of vertices. The
-/// farthest sample of a chord splits it recursively (ties: the first). A sample where the surface next to the line
-/// changes (a cell with nodata) is also kept: every corner of an outline on the line is a vertex. The line lies inside
-/// the raster; its field may have nodata. Cost: O(steps · log steps), expected. Fails as the field's source does.
+/// that belongs to the surface on either side lies within its bound of the chain of vertices, in exact numbers. A chord
+/// is split recursively at its farthest sample (ties: the first). A sample where the surface next to the line changes
+/// (a cell with nodata) is also kept, so every corner of an outline on the line is a vertex. The line lies inside the
+/// raster; its field may have nodata. Cost: O(steps · log steps), expected. Fails as the field's source does.
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
                                                   const LineBound& bound);
 
@@ -43,7 +43,7 @@ Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, cons
 Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
                                                std::span<const std::int32_t> kept, const LineBound& bound);
 
-/// A run of steps with the same surface on either side: cells with four heights, or none.
+/// A run of steps along which neither side changes between surface (cells with four heights) and none.
 struct BorderRun {
   std::int32_t begin = 0, end = 0;
   bool has_surface = false;  ///< on at least one side

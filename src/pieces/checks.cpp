@@ -76,7 +76,7 @@ double round_to_two_digits(double value) {
   return scale(scale(count) < value ? count + 1 : count);
 }
 
-/// Far from 0, doubles are coarser than the spacing of samples.
+/// Fails where doubles are coarser than the spacing of samples, far from 0.
 Result<void> check_places(const HeightField& field) {
   for (int axis = 0; axis < 2; ++axis) {
     const double* const terms = &field.frame.affine[3 * static_cast<std::size_t>(axis)];

@@ -8,11 +8,11 @@
 
 namespace scarp {
 
-/// Fails with kUsage for goals that are missing or out of range, with kPromise for a max error below the samples'
+/// Fails with kUsage for goals that are missing or out of range, and with kPromise for a max error below the samples'
 /// rounding.
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options);
 
-/// Fails as check_values() and check_size() do; also with kUsage for conflicting settings (src/pieces/conflicts.h) and
+/// Fails as check_values() and check_size() do, and with kUsage for conflicting settings (src/pieces/conflicts.h) and
 /// missing prerequisites.
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options);
 

@@ -15,8 +15,8 @@
 
 namespace scarp {
 
-/// A setting: a field of SimplifyOptions other than its default, or one of its values if they conflict differently; a
-/// property of a HeightField; or a setting of tiles.
+/// A setting: a field of SimplifyOptions that differs from its default (one setting per value if values conflict
+/// differently), a property of a HeightField, or a setting of tiles.
 enum class Field : std::uint8_t {
   kMaxError,
   kMaxTriangles,
@@ -47,7 +47,7 @@ enum class Field : std::uint8_t {
   kTimeLimit,  ///< is_time_up
   kEnough,     ///< is_enough
   kObjectiveRms,
-  kStrategy,  ///< a setting of simplify_by_paper() other than its default; never set in options of simplify()
+  kStrategy,  ///< a setting of simplify_by_paper() that differs from its default; never set in options of simplify()
   kLevels,    ///< a setting of simplify_levels(); never set in options of simplify()
   kNorm,
   kLattice,  ///< positions for compression
@@ -71,8 +71,8 @@ enum class Field : std::uint8_t {
   kTileLines,
   kTileDrape,
   kTileOnly,
-  kTileGeoid,     ///< the zero of the heights
-  kTileVertical,  ///< likewise, but not given as a file
+  kTileGeoid,     ///< the zero level of heights
+  kTileVertical,  ///< likewise, not given as a file
 };
 inline constexpr int kSimplifyFieldCount = static_cast<int>(Field::kSource) + 1;
 inline constexpr int kFieldCount = static_cast<int>(Field::kTileVertical) + 1;
@@ -126,7 +126,7 @@ struct ConflictRule {
 
 std::span<const ConflictRule> conflict_rules();
 
-/// Two settings that conflict; three, if `beside` is given.
+/// Two settings that conflict, or three if `beside` is given.
 struct Conflict {
   Field one{}, other{};
   std::optional<Field> beside = std::nullopt;
@@ -135,7 +135,7 @@ struct Conflict {
 
 /// All conflicts in the set, in the order of the table. Field::kSource in the set means that the samples are streamed.
 std::vector<Conflict> find_conflicts(Fields set);
-/// All conflicts of a call of simplify(), which fails with kUsage and describe() of the first.
+/// All conflicts of a call of simplify(). It fails with kUsage and describe() of the first conflict.
 std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options);
 
 /// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word` names a setting.

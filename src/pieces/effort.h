@@ -1,4 +1,4 @@
-// Table of the efforts: the work after refinement.
+// Table of efforts, which determine the work after refinement.
 #pragma once
 
 #include <optional>

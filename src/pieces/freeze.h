@@ -23,8 +23,8 @@ namespace scarp {
 class SampleHeights {
  public:
   explicit SampleHeights(const Raster& raster) : raster_(raster) {}
-  /// Heights for a field with a source, which stays alive. `known`: heights of the first vertices, which then need not
-  /// be read.
+  /// Heights of a field with a source, which must outlive this. `known`: heights of the first vertices, which are not
+  /// read.
   SampleHeights(const HeightField& field, std::span<const float> known)
       : raster_{nullptr, field.cols, field.rows}, source_(field.source), known_(known) {}
 
@@ -41,7 +41,7 @@ class SampleHeights {
 };
 
 /// Maps vertices to positions in the frame: offsets from frame_origin(), or from the origin of a frame in space,
-/// rounded to float32 on request. Heights stay as they are, except in space. References outlive this.
+/// rounded to float32 on request. Heights do not change, except in space. References outlive this.
 struct VertexPositions {
   const SampleHeights& heights;
   const VertexLattice& lattice;  ///< lattice of the vertices; its heights override those of samples
@@ -49,8 +49,8 @@ struct VertexPositions {
   bool round_to_float32 = false;
 };
 
-/// The inside triangles with their vertices, counter-clockwise from above even if the frame mirrors. Ids follow the
-/// order of insertion. The mesh does not depend on threads.
+/// The triangles inside the domain with their vertices, counter-clockwise from above even if the frame mirrors. Ids are
+/// in order of insertion. The mesh does not depend on threads.
 Mesh freeze(const Triangulation& tin, const VertexPositions& positions, int threads = 1);
 
 /// The lattice points of freeze()'s vertices, in its order.
@@ -80,7 +80,7 @@ class MeltDown {
   VertexPositions way_;
   int threads_;
   Array<Vertex> corners_;                 // until the triangles are ordered
-  std::optional<VertexNumbers> numbers_;  // nothing: all vertices are used and keep their numbers
+  std::optional<VertexNumbers> numbers_;  // none: all vertices are used and keep their numbers
   std::vector<double> positions_;         // by vertex; empty in affine frames, where they are cheap to recompute
   std::vector<std::uint32_t> ordered_;    // ordered corners; empty before ordering
 };

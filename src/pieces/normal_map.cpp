@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// The pixels of a sample along one axis: one or two, as samples are no larger than pixels.
+/// The pixels of a sample along one axis: one or two, since samples are no larger than pixels.
 struct Share {
   int pixel = 0;
   double here = 1;  ///< share of the first pixel; the next one has the rest

@@ -25,7 +25,7 @@ struct Surroundings {
   bool is_usable(Point p) const { return p.x >= 0 && p.y >= 0 && p.x < cols() && p.y < rows && !std::isnan(at(p)); }
 };
 
-/// 1 if the axes of rows and columns turn left, seen from above at the raster's centre, −1 if right.
+/// 1 if the axes of rows and columns turn left, −1 if right, seen from above at the raster's centre.
 double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, const std::array<double, 3>& up) {
   const Point centre{heights.cols() / 2, heights.rows / 2};
   std::vector<double> x, y, z{0, 0, 0};
@@ -39,8 +39,8 @@ double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, cons
   return turn < 0 ? -1 : 1;
 }
 
-/// The slope along an axis of the raster at a sample of a locked border: a rise over so many steps. One step without a
-/// rise if a neighbour does not know the sample beyond; no step if neither side has a height.
+/// The slope along an axis of the raster at a sample of a locked border: a rise over a number of steps. One step
+/// without a rise if a neighbour lacks the sample beyond; no step if neither side has a height.
 struct BorderSlope {
   double rise = 0;
   int steps = 1;
@@ -62,7 +62,7 @@ BorderSlope border_slope(const Surroundings& heights, Point p, Point step) {
           int{!std::isnan(low)} + int{!std::isnan(high)}};
 }
 
-/// Uses steps instead of positions: rasters with a common side number its samples differently.
+/// Uses steps instead of positions, because rasters with a common side number its samples differently.
 std::array<float, 3> border_normal(const Surroundings& heights, const Frame& frame, Point p) {
   const auto& a = frame.affine;
   const BorderSlope u = border_slope(heights, p, {1, 0}), v = border_slope(heights, p, {0, 1});
@@ -120,7 +120,7 @@ std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& 
   return normals;
 }
 
-/// The valid samples of the up to four around a point, with bilinear weights.
+/// Adds the valid samples among the up to four around a point, with bilinear weights.
 void add_corners(const Surroundings& heights, std::int32_t steps, Point p, std::vector<Point>& corners,
                  std::vector<double>& weights) {
   const Point first{p.x / steps, p.y / steps};
@@ -179,7 +179,7 @@ std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
 }  // namespace
 
 std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at, const Border& border) {
-  constexpr std::int32_t kReach = 2;  // samples needed around the one above a point
+  constexpr std::int32_t kReach = 2;  // samples needed around the sample above a point
   std::vector<float> normals;
   std::vector<std::uint32_t> order;
   std::vector<Point> points;

@@ -53,7 +53,7 @@ Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, cons
   const LatticeMetric metric(piece.samples, inserted.heights(), goals.threshold, piece.aims);
   Refinement refinement(metric, piece.tin, Algorithm::kHeap, {},
                         piece.is_refined ? Refinement::Start::kClean : Refinement::Start::kScan);
-  // Triangles of refinement that no line touches satisfy the bound.
+  // Refined triangles that no line touches satisfy the bound.
   if (piece.is_refined) refinement.scan(inserted.changed(), goals.threads);
   SCARP_RETURN_IF_ERROR(insert_until_done(piece, metric, refinement, work));
   if (goals.releases_starts) inserted.release_starts(piece.tin);

@@ -2,7 +2,7 @@
 //
 //     seed → insert constraints → refine → fit
 //
-// Each prepares the piece for the next. The recipe of a run decides which passes run, and with which goals.
+// Each pass prepares the piece for the next one. The recipe of a run decides which passes run, and with which goals.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,21 @@
 namespace scarp {
 
 /// Seeds the mesh of a piece with neighbours: its domain, with only the outline's vertices. Without surface cells, all
-/// triangles are outside. Edges along shared rows are free, since the neighbour also decides whether the domain ends
-/// there.
+/// triangles are outside. Edges along shared rows are free, since the domain ends there only if the neighbour has no
+/// surface.
 Result<void> seed(Piece& piece);
 
 /// How constraints are inserted.
 struct ConstraintGoals {
   double threshold = 0;          ///< threshold of errors, if the piece has no aims
-  bool releases_starts = false;  ///< edges that serve only as a start are released at the end, with their vertices
+  bool releases_starts = false;  ///< releases edges that serve only as a start, with their vertices, at the end
   int threads = 1;
 };
 
 /// Inserts the edges of the graph, in the piece's coordinates, as chains of constrained edges. Then refines the
-/// triangles that break the bound: around the edges if the piece is already refined, else everywhere. Afterwards the
-/// lattice has kLatticeSteps. Adds to `work`. Fails as ConstrainedMesh::insert(), with kInput for too many triangles,
-/// and as piece.check does.
+/// triangles that break the bound: around the edges if the piece is already refined, else everywhere. Afterwards, the
+/// lattice has kLatticeSteps. Adds to `work`. Fails as ConstrainedMesh::insert() and piece.check do, and with kInput
+/// for too many triangles.
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
 
 /// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many
@@ -51,7 +51,7 @@ Result<FitOutcome> fit_piece(Piece& piece, FitOptions options);
 inline constexpr const char* kTooManyTriangles =
     "the mesh would have more than 1,431 million triangles: allow a larger error";
 
-/// Bytes a vertex for constraints and refinement of a piece, its mesh included.
+/// Bytes per vertex for constraints and refinement of a piece, including its mesh.
 inline constexpr std::uint64_t kRefinementBytesPerVertex = 160;
 
 }  // namespace scarp

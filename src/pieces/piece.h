@@ -1,10 +1,10 @@
 // A piece: a window of the raster with its mesh, on which the passes (passes.h) work.
 //
 //     in memory      one piece: the whole raster, nothing shared
-//     streamed       one strip at a time, which shares its upper and lower row of samples with its neighbours
+//     streamed       one strip at a time, which shares its upper and lower rows of samples with its neighbours
 //
-// A piece never reads beyond its samples and one more row around them. The vertices on a shared row depend only on that
-// row's samples and tolerances. Both neighbours find the same ones, and neither adds any.
+// A piece reads only its samples and one more row around them. The vertices on a shared row depend only on that row's
+// samples and tolerances. Both neighbours find the same vertices there, and neither adds any.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct Piece {
   bool is_refined = false;
   /// True if any surface remains after the cutline.
   bool has_surface = true;
-  /// Called now and then with the finished share of the pass and the largest remaining error. Fails if memory has no
-  /// room for the vertices, and with kCancelled. EMPTY: never called.
+  /// Called at intervals with the finished share of the pass and the largest remaining error. Fails if memory does not
+  /// suffice for the vertices, and with kCancelled. EMPTY: never called.
   std::function<Result<void>(std::uint64_t vertices, double share, double error)> check = {};
 };
 

@@ -23,7 +23,7 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
 }
 
-/// Without a requested number of threads: few samples are finished before another thread starts.
+/// The default for few samples is one thread: they are finished before another thread starts.
 int choose_threads(const HeightField& field, int asked, Effort effort) {
   constexpr std::int64_t kFewSamples = 1 << 14;
   const bool is_small = std::int64_t{field.cols} * field.rows <= kFewSamples;
@@ -35,7 +35,7 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
   // If bounds differ, inserting the worst sample of the whole raster first needs fewer triangles.
   if (options.quality.order == Order::kAuto && has_own_bounds(options, field.samples == nullptr)) return false;
-  // A locked border is refined as one tile, which may begin with points.
+  // A raster with a locked border is refined as one tile, which may begin with points.
   const auto of_order = [&](const Conflict& conflict) {
     return conflict.one == Field::kOrderDominant &&
            !(conflict.other == Field::kPoints && options.domain.border.is_locked);
@@ -44,8 +44,9 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
 }
 
-/// No search for squares with shape goals, nor with a locked border, which has a separate error. Nor for streamed
-/// samples with lines, tolerances or curved frames, where refinement of a fine start reads triangle by triangle.
+/// There is no search for squares with shape goals, nor with a locked border, which has a separate error; nor for
+/// streamed samples with lines, tolerances or curved frames, for which refinement of a fine start reads triangle by
+/// triangle.
 Search choose_search(const Recipe& recipe) {
   const SimplifyOptions& options = recipe.options;
   if (!recipe.has_budget || (!recipe.fits && recipe.insertion_stops)) return Search::kNone;
@@ -66,8 +67,8 @@ double choose_height_step(const HeightField& field, const SimplifyOptions& optio
   const bool has_own =
       !own.values.empty() || own.source != nullptr || !own.weights.empty() || own.weights_source != nullptr;
   if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
-  // Meshes with a common border share its bound, but may have other bounds inside: levels, and neighbours with other
-  // errors.
+  // Meshes with a common border share the border's bound, but may have different bounds inside: levels, and neighbours
+  // with other errors.
   const Border& border = options.domain.border;
   const double asked = options.goals.max_error.value_or(0);
   const double shared = border.is_locked ? border.max_error.value_or(asked) : asked;
@@ -76,8 +77,8 @@ double choose_height_step(const HeightField& field, const SimplifyOptions& optio
   return std::ldexp(1.0, std::ilogb(2 * kHeightShare * bound));
 }
 
-/// The judge moves a position to the lattice if rounding explains the distance, up to this share of a cell. Cells that
-/// are tiny relative to their coordinates lose their places.
+/// The judge moves a position to the lattice if rounding explains the distance, up to this share of a cell. Coordinates
+/// cannot represent the positions of relatively tiny cells.
 bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
   const auto& a = field.frame.affine;
   const double near = steps > 1 ? 0x1p-16 : 0x1p-8;
@@ -87,7 +88,7 @@ bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
   return 0x1p-50 * std::max(x, y) <= near * cell;
 }
 
-/// True if the mesh represents all lattice points exactly, at so many steps between two samples.
+/// True if the mesh represents all lattice points exactly, with `steps` steps between two samples.
 bool lattice_is_exact(const HeightField& field, bool rounds_offsets, std::int32_t steps) {
   if (!field.frame.is_affine()) return false;
   return rounds_offsets ? offsets_are_exact(field.frame, field.cols, field.rows, steps)
@@ -135,7 +136,7 @@ Question either(const Question& first, const Question& second) {
 constexpr double kAnyPatience = 100;
 
 FitOptions fit_options(const Recipe& recipe) {
-  // On samples a floor costs up to a tenth more, possibly more triangles than normal effort.
+  // With vertices on samples, a floor costs up to 10 % more triangles, possibly more than normal effort.
   constexpr double kUsualShape = 0.1;
   const SimplifyOptions& options = recipe.options;
   const Frame& frame = recipe.field.frame;
@@ -144,7 +145,7 @@ FitOptions fit_options(const Recipe& recipe) {
   if (frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = recipe.frees_vertices;
   fit.depth = recipe.traits.depth;
-  // If two vertices are too close, usually both are needed, but one between them may suffice.
+  // If two vertices are too close, both are usually needed, but one vertex between them may suffice.
   if (options.quality.shape.min_edge && recipe.traits.moves_vertices) {
     fit.depth.repair = kMaxDepth.repair;
     fit.depth.repair.patience = kAnyPatience;
@@ -195,7 +196,7 @@ Recipe::Recipe(const HeightField& given, const Request& asked, const Scale& by)
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples && given.frame.is_affine() &&
                      !has_norm(given)),
       releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
-      // With shape goals, strips must lose the redundant vertices of tile borders at every effort.
+      // With shape goals, redundant vertices of tile borders must be removed from strips at every effort.
       fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
       removes_last(asked.quality.shape.any() && shape_rule(asked.quality.shape, given.frame)),
       fits_strips(is_streamed && fits_pieces),

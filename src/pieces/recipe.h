@@ -14,20 +14,20 @@
 
 namespace scarp {
 
-/// The demands of a search on a run, besides its options.
+/// The parameters of a run that a search sets, in addition to the options.
 struct Scale {
   double factor = 1;      ///< factor of all tolerances
   double line_error = 0;  ///< max error of lines along the raster, if the options have no max error
-  double start = 1;       ///< share of every bound that refinement aims at; fitting uses the whole bound
+  double start = 1;       ///< share of every bound that refinement uses; fitting uses the whole bound
   std::optional<SquareGoal> squares = std::nullopt;  ///< goal of fitting. DEFAULT: few triangles
-  /// Beyond this budget only the size of a mesh matters: it is neither ordered nor proven.
+  /// Only the size of a mesh above this budget matters: the mesh is neither ordered nor proven.
   std::optional<Budget> room = std::nullopt;
   bool refines_only = false;  ///< fast effort, whatever the options request
 };
 
 /// Search for the mesh of a budget.
 enum class Search {
-  kNone,     ///< one run: no budget, or insertion stops at it
+  kNone,     ///< one run: no budget, or insertion stops at the budget
   kError,    ///< runs for several errors (simplify/budget_search.h)
   kSquares,  ///< a run for a small squared error (simplify/squares_search.h)
 };
@@ -42,8 +42,8 @@ enum class Route {
 /// True if errors are norms over heights and channels.
 inline bool has_norm(const HeightField& field) { return !field.channels.empty() || field.height_scale != 1; }
 
-/// The options as simplify() executes them: effort, threads and the border's max error are chosen if absent, and
-/// vertices are on samples if errors are norms. REQUIRES: checked options.
+/// The options as simplify() executes them. Effort, threads and the border's max error are chosen if absent; vertices
+/// are on samples if errors are norms. REQUIRES: checked options.
 Request settle_request(const HeightField& field, const SimplifyOptions& asked);
 
 /// A run towards its goals. Borrows the field's samples and the options.
@@ -64,27 +64,27 @@ struct Recipe {
   bool has_source_bounds;  ///< streamed samples have bounds of their own
   bool is_dominant;        ///< the dominant order can reach the goals
   Route route;
-  /// Insertion can stop at a budget. It cannot with lines, which depend on the error, nor strip by strip.
+  /// Insertion can stop at a budget. It cannot stop with lines, which depend on the error, nor strip by strip.
   bool insertion_stops;
   bool fits;  ///< the effort removes vertices
   Search search;
   bool frees_vertices;         ///< vertices may move off their samples
   bool releases_starts;        ///< edges that serve only as a start may be removed
   bool fits_pieces;            ///< pieces are fitted: by the effort, or for shape goals
-  bool removes_last;           ///< removal follows refinement for shapes and preserves them: far fewer triangles
+  bool removes_last;           ///< removal follows refinement for shapes and preserves shapes: far fewer triangles
   bool fits_strips;            ///< vertices are removed strip by strip
   bool finishes_strips;        ///< some pass works on a strip while its samples are in memory
-  bool reads_beyond;           ///< reads samples beyond those of refinement: nodata must be NaN
+  bool reads_beyond;           ///< also reads samples that refinement does not: nodata must be NaN
   bool rounds_offsets;         ///< x and y are rounded to float32
   double height_step;          ///< heights become multiples of this power of two; 0: unchanged
   std::int32_t lattice_steps;  ///< lattice steps between two samples; vertices lie on the lattice
   bool is_exact;               ///< the mesh represents each lattice point exactly
   bool is_exact_on_samples;    ///< the mesh represents each sample's position exactly
-  /// The share of every bound that the engine aims at, of which refinement uses scale.start. The rest covers rounded
+  /// The share of every bound that the engine uses; refinement uses scale.start of this share. The rest covers rounded
   /// heights and, for vertices between samples, rounded positions, since no sample can be inserted there to repair
   /// errors.
   double aim;
-  MemoryBudget memory;  ///< bytes a vertex at the peak: proof, writing, or fitting as a whole
+  MemoryBudget memory;  ///< bytes per vertex at the peak: proof, writing, or fitting as a whole
   FitOptions fit;       ///< without threshold, norm, samples' bounds, threads and progress
 };
 

@@ -25,7 +25,7 @@ EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, Hal
   const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
   const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
   const Point d = corner(Triangulation::previous(tin.twin(h)));
-  // An error so far above the goal is a breach despite rounding; a false alarm would only keep the edge.
+  // An error so far above the goal breaks the bound despite rounding; a false alarm would only keep the edge.
   FitQuestion question;
   if (metric.goal() > 0) question.give_up_max = 1.001 * metric.goal();
   const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
@@ -38,7 +38,7 @@ EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, Hal
   return verdict;
 }
 
-/// Delaunay's rule where the bound allows it. Verdicts computed in advance hold until one of an edge's triangles
+/// The Delaunay rule where the bound allows it. Verdicts computed in advance are valid until one of an edge's triangles
 /// changes.
 class CarefulRule final : public FlipRule {
  public:

@@ -1,4 +1,4 @@
-// Releases the borders between tiles: their edges were chosen from one side only, and are now chosen from both.
+// Releases the borders between tiles. Their edges were chosen from one side only, and are now chosen from both sides.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace scarp {
 
-/// Flips `seams`, and the edges that they touch, towards the Delaunay property where both new triangles satisfy the
-/// bound of every sample. No vertex is added (forcing Delaunay edges costs 0.2 to 1 % more vertices: docs/design.md).
+/// Flips `seams`, and the edges that they touch, towards the Delaunay property if both new triangles satisfy the bound
+/// of every sample. No vertex is added (forcing Delaunay edges costs 0.2 to 1 % more vertices: docs/design.md).
 /// Afterwards every free edge is either Delaunay or needed by the bound. Cost: a scan of two triangles for each edge
-/// that Delaunay would flip; the first round of scans runs on `threads` threads. The result does not depend on their
-/// number. REQUIRES: every triangle satisfies its bounds.
+/// that is not Delaunay; the first round of scans runs on `threads` threads. The result does not depend on `threads`.
+/// REQUIRES: every triangle satisfies its bounds.
 Work release_seams(Triangulation& tin, const ErrorMetric& metric, std::vector<HalfEdge> seams, int threads = 1);
 
 }  // namespace scarp

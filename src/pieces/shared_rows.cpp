@@ -27,7 +27,7 @@ std::vector<std::int32_t> vertices_along(const Piece& strip, std::int32_t y) {
   return cols;
 }
 
-/// The aims of a row of a piece's samples.
+/// The aims of one row of a piece's samples.
 template <class Float>
 std::span<Float> along(std::span<Float> aims, const Piece& strip, std::int32_t y) {
   const auto cols = static_cast<std::size_t>(strip.samples.cols);
@@ -75,7 +75,7 @@ void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const flo
   }
 }
 
-/// Appends the samples that a chord between two vertices needs: the farthest splits it recursively.
+/// Appends the samples that a chord between two vertices needs: the farthest sample splits it recursively.
 void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, const LineBound& bound,
                         std::vector<std::int32_t>& kept) {
   std::vector<std::pair<BorderVertex, BorderVertex>> chords{{from, to}};
@@ -136,7 +136,7 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
   std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
   std::vector<std::int32_t> kept;
   if (vertices.empty()) {
-    // The strip beyond may consist of tiles.
+    // The adjacent strip may consist of tiles.
     const Tiling tiling(field.cols, field.rows, side);
     for (std::size_t tile = 0; tile < tiling.per_row(); ++tile) {
       const TileWindow window = tiling.window(tile);

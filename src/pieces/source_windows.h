@@ -10,14 +10,14 @@
 
 namespace scarp {
 
-/// Rows that refine_shapes() holds at a time: at most a quarter of the memory, bounds included (null: none), but at
-/// least a few.
+/// Number of rows that refine_shapes() holds at a time: at most a quarter of the memory, including bounds (null: none),
+/// but at least a few rows.
 std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 
-/// Makes fit() read windows of at most a quarter of the memory per thread, and cut patches that mostly fit them.
-/// Windows depend on the memory alone, so the mesh does not depend on threads. `bounds`: of samples, may be null.
-/// Borrows field and bounds.
+/// Makes fit() read windows of at most a quarter of the memory per thread, and cut patches that mostly fit these
+/// windows. Windows depend only on the memory, so the mesh does not depend on threads. `bounds`: of samples, may be
+/// null. Borrows field and bounds.
 void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptions& options,
                   const SourceBounds* bounds = nullptr);
 std::uint64_t window_bytes(const FitOptions& options);

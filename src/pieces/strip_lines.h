@@ -5,9 +5,9 @@
 //     ────────────────────────┴───────    samples split that, by the row's own rule (shared_rows.h).
 //     strips below, not read yet
 //
-// Walls and ridges must be inserted before the surface is refined, so tiles would be too early. Strips that such a
-// graph touches are made whole: lines first, then the strip is refined at once. The rims of a cut are also split where
-// strips meet. Those along a shared row belong to both strips; each strip determines its side of them.
+// Walls and ridges must be inserted before the surface is refined, so before tiles. Strips that such a graph touches
+// are made whole: lines are inserted first, then the strip is refined as one piece. The walls of a cut are also split
+// where strips meet. Walls along a shared row belong to both strips; each strip determines its side of them.
 #pragma once
 
 #include <array>
@@ -23,12 +23,12 @@ namespace scarp {
 
 class StripLines {
  public:
-  /// `graph`: of the whole raster, its edges split at the rows that strips share. Borrowed.
+  /// `graph`: of the whole raster, with edges split at the rows that strips share. Borrowed.
   explicit StripLines(const ConstraintGraph& graph);
 
   /// True for rows of samples where lines are inserted before the surface is refined.
   bool makes_whole(std::int32_t first, std::int32_t rows) const;
-  /// The part in the strip's coordinates; it has all points on shared rows.
+  /// The strip's part of the graph, in the strip's coordinates, with all points on shared rows.
   ConstraintGraph part_of(const Piece& strip) const;
 
  private:

@@ -21,7 +21,7 @@ namespace {
 /// Bytes of bounds per sample of a strip.
 constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 
-/// Every strip needs the same lattice, whatever its extent.
+/// True if the raster fits the lattice, which all strips share.
 bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
 
 FitOptions strip_fit(const Recipe& recipe, double threshold) {
@@ -50,7 +50,7 @@ class StripWork {
     if (lines != nullptr) lines_.emplace(*lines);
   }
 
-  /// With lines inserted first, or samples that need not satisfy the max error, tiles are useless.
+  /// Tiles are useless if lines are inserted first, or if samples need not satisfy the max error.
   bool makes_whole(std::int32_t first, std::int32_t rows) const {
     return (bounds_ != nullptr && !bounds_->has_most()) || (lines_ && lines_->makes_whole(first, rows));
   }
@@ -98,7 +98,7 @@ class StripWork {
     return {};
   }
 
-  /// The metric of triangles skips samples on shared rows, which the row's metric has decided.
+  /// The metric of triangles skips samples on shared rows, for which the row's metric has decided.
   Result<void> refine_to_bounds(Piece& strip, bool is_whole) {
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
@@ -125,7 +125,7 @@ class StripWork {
   std::optional<FitOptions> fit_;
   std::optional<StripLines> lines_;
   std::vector<float> aims_;   // aims of the current strip
-  bool has_surface_ = false;  // any strip so far, after the cutline
+  bool has_surface_ = false;  // true if any strip so far has a surface within the cutline
   StripTotals& totals_;
 };
 

@@ -21,12 +21,12 @@ struct StripTotals {
   Work lines;                 ///< work of inserting constraints
   Work refinement;            ///< refinement to individual bounds, without lines
   std::uint64_t removed = 0;  ///< number of vertices
-  bool is_cut_short = false;  ///< by the time limit: later strips are not fitted
+  bool is_cut_short = false;  ///< true if the time limit was reached: later strips are not fitted
 };
 
 /// Makes refine_tiled() run the recipe's passes on each strip, and adds to `totals`. `lines`: constraints (null: none).
-/// `bounds`: of samples (null: the threshold holds for all). Effort kMax ignores the time limit, as the first strip
-/// would use it up. Progress is reported through the present `tiles.progress`. Borrows all.
+/// `bounds`: of samples (null: the threshold applies to all). Effort kMax ignores the time limit, because the first
+/// strip would use it up. Progress is reported through the current `tiles.progress`. Borrows all arguments.
 void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles);
 

@@ -7,8 +7,8 @@ namespace scarp {
 
 namespace {
 
-constexpr std::uint64_t kPiece = 62;       ///< bytes a vertex of a TilePiece and its heights
-constexpr std::uint64_t kWorkbench = 128;  ///< bytes of the mesh at work, the stack of triangles, and the numbers of
+constexpr std::uint64_t kPiece = 62;       ///< bytes per vertex of a TilePiece and its heights
+constexpr std::uint64_t kWorkbench = 128;  ///< bytes of the active mesh, the stack of triangles, and the numbers of
                                            ///< vertices
 
 }  // namespace

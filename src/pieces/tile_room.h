@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Divides the memory that the mesh does not use among the tiles at work. The share of a new tile depends on the
-/// others. A tile alone gets all of the free memory.
+/// Divides the memory that the mesh does not use among the active tiles. The share of a new tile depends on the others.
+/// A single tile gets all free memory.
 class TileRoom {
  public:
   /// `base`: bytes that any mesh needs. `vertices`: of the mesh so far. `tiles`: the maximum at a time.
@@ -18,12 +18,12 @@ class TileRoom {
 
   /// The maximum number of vertices of a tile that begins now; unlimited without a memory limit.
   std::size_t begin();
-  /// Reports a tile finished with so many vertices, which now waits. `most`: what begin() returned.
+  /// Reports that a tile finished with `vertices` and now waits. `most`: the result of begin().
   void end(std::size_t most, std::size_t vertices);
   /// Moves a waiting tile's vertices to the mesh.
   void commit(std::size_t vertices);
 
-  /// Bytes a vertex of a tile at work.
+  /// Bytes per vertex of an active tile.
   static std::uint64_t bytes_per_vertex(const MemoryBudget& memory);
 
  private:

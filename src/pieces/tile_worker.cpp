@@ -28,7 +28,7 @@ DominantRun refine_in_order(TileOrder order, TileMesh& mesh, TileScanner& scanne
 }  // namespace
 
 double expected_density(std::size_t kept, std::int64_t steps) {
-  // The squared density along a line, times a factor measured on all kinds of terrain (2 to 10).
+  // The squared density along a line, times a factor that was 2 to 10 on all kinds of terrain.
   const double along = static_cast<double>(kept) / static_cast<double>(std::max<std::int64_t>(1, steps));
   return 5 * along * along;
 }

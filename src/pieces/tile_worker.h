@@ -1,4 +1,4 @@
-// One thread's work on tiles; reuses its memory from tile to tile.
+// The work of one thread on tiles, which reuses its memory from tile to tile.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ namespace scarp {
 struct TileOutcome {
   Result<void> status;
   TilePiece piece;
-  std::vector<float> heights;  ///< heights of the piece's points, where the field has a source
+  std::vector<float> heights;  ///< heights of the piece's points, if the field has a source
   Work work;
   bool is_unsuited = false;    ///< heights span magnitudes too different for exact arithmetic
   bool is_broken_off = false;  ///< reached the vertex limit; there is no piece
 };
 
-/// Expected vertices a sample of the plane, if lines of so many steps kept `kept` vertices.
+/// Expected number of vertices per sample of the plane, if lines of `steps` steps kept `kept` vertices.
 double expected_density(std::size_t kept, std::int64_t steps);
 
 void add(Work& sum, const Work& work);
@@ -39,14 +39,14 @@ class TileWorker {
   TileOutcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
                      double density, std::size_t most);
 
-  /// Refines a whole field as one tile that starts with the given vertices; no others are added on its sides. A field
-  /// with nodata is unsuited, too. REQUIRES: sides of at most kMaxTileSide samples, whose samples break no bound.
+  /// Refines a whole field as one tile that starts with the given vertices; no other vertices are added on its sides. A
+  /// field with nodata is also unsuited. REQUIRES: sides of at most kMaxTileSide samples, whose samples break no bound.
   TileOutcome refine_alone(const HeightField& field, std::span<const Point> on_sides, std::span<const Point> inside,
                            double threshold, std::size_t most);
 
  private:
   bool is_suited() const { return tile_.largest_height() <= kMaxScanHeight; }
-  /// Starts from the border and the vertices inside; the tile is loaded.
+  /// Starts from the border and the vertices inside. REQUIRES: the tile is loaded.
   TileOutcome refine_loaded(const HeightField& field, const TileWindow& window, const SharedSides& shared,
                             double threshold, double density, std::size_t most, std::span<const Point> inside);
   Result<void> find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,

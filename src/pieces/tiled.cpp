@@ -19,14 +19,14 @@ namespace {
 /// Below this, a tile would have a few dozen vertices, many of them on its borders.
 constexpr double kLeastDensity = 1e-5;
 
-/// Large tiles for a coarse mesh, so that borders are few; tiles that fit the caches for a fine one.
+/// Large tiles for a coarse mesh, so that borders are few; for a fine mesh, tiles that fit the caches.
 std::int32_t side_for(double density) {
   if (density < 0.001) return 2048;
   if (density < 0.003) return 1024;
   return density < 0.04 ? 512 : 256;
 }
 
-/// Estimates from the borders of tiles of 256 samples, or from the raster's edges without such borders.
+/// Estimates the density from the borders of tiles of 256 samples; without such borders, from the raster's edges.
 Result<double> estimate_density(const HeightField& field, double threshold, int threads) {
   const Tiling tiling(field.cols, field.rows, 256);
   const bool is_alone = tiling.count() == 1;
@@ -106,20 +106,19 @@ bool goes_by_strips(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_strip != nullptr;
 }
 
-/// Bytes per sample of a strip: the sample, and for finishing a copy and its memory.
+/// Bytes per sample of a strip: the sample; for finishing also a copy, and the memory that finishing needs.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
   return options.finish_strip ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
-/// Bytes of the samples of the highest strip, if read by rows.
+/// Bytes of the samples of the tallest strip, if read by rows.
 std::uint64_t strip_bytes(const HeightField& field, const Tiling& tiling) {
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < tiling.count(); i += tiling.per_row()) rows = std::max(rows, tiling.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
 }
 
-/// Bytes of a thread's buffers and of finished tiles that wait, without their vertices: about twice the samples of a
-/// tile.
+/// Bytes of a thread's buffers and of waiting finished tiles, without vertices: about twice the samples of a tile.
 std::uint64_t worker_bytes(const Tiling& tiling) {
   const TileWindow window = tiling.window(0);
   return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
@@ -180,8 +179,8 @@ class TiledRun {
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
 
-  /// Continues with one tile at a time from the first that did not fit next to the others. Thus each tile gets all
-  /// memory available, whatever the number of threads.
+  /// Continues with one tile at a time, beginning with the first that did not fit in addition to others. Thus each tile
+  /// gets all available memory, for any number of threads.
   void refine(std::size_t first, std::size_t count) {
     const std::size_t end = first + count;
     const std::size_t refused = refine(first, end, threads_);
@@ -214,7 +213,8 @@ class TiledRun {
     return refused;
   }
 
-  /// Refuses a tile that exceeds all memory. Estimates its size as the densest possible, or four times the room.
+  /// The error for a tile that exceeds all memory. Estimates the tile's size as the densest possible, or four times the
+  /// room.
   Result<void> refuse(std::size_t tile) const {
     const MemoryBudget& memory = options_.memory;
     const std::uint64_t before = assembly_.vertex_count() + strip_.vertex_count(),
@@ -255,13 +255,13 @@ class TiledRun {
     return status_.has_value();
   }
 
-  /// Bytes of finishing beyond those of the strip's vertices.
+  /// Bytes of finishing in addition to those of the strip's vertices.
   std::uint64_t finish_bytes(std::uint64_t vertices) const {
     const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
     return (std::max(whole, mesh) - mesh) * vertices;
   }
 
-  /// `share`: of all tiles when this strip is done.
+  /// `share`: the finished share of all tiles after this strip.
   Result<void> finish_strip(const TileWindow& window, bool is_made_whole, double share) {
     const Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
@@ -326,7 +326,7 @@ class TiledRun {
 
 }  // namespace
 
-/// Strips use a quarter of the memory, with post-processing half, which pays for each border between strips.
+/// Strips use a quarter of the memory, or half with post-processing, which loses at each border between strips.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_strip ? 1024 : 512;

@@ -1,10 +1,10 @@
 // Refinement tile by tile: the default engine for an error goal on plain heights.
 //
 // The raster is cut into tiles that share a row or a column of samples with their neighbours. Each shared border is
-// first simplified separately to the same bound (border_chain.h). Then each tile is refined alone in the locally
-// dominant order (dominant.h): its samples fit the caches, a triangle has 32 bytes, a coordinate 16 bits. Tiles are
-// independent, so the result does not depend on threads, and only tiles at work need their samples in memory. At the
-// end the borders are released (release.h): edges across them become Delaunay and the few changed triangles are refined
+// first simplified separately to the same bound (border_chain.h). Then each tile is refined separately in the locally
+// dominant order (dominant.h). Its samples fit the caches; a triangle has 32 bytes and a coordinate 16 bits. Tiles are
+// independent, so the result does not depend on threads, and only active tiles need their samples in memory. At the end
+// the borders are released (release.h): edges across them become Delaunay and the few changed triangles are refined
 // again.
 //
 //     ·───────┬───────┬──      ─── shared border: its vertices depend only on its samples
@@ -36,9 +36,10 @@ struct TiledOptions {
   double threshold = 0;
   int threads = 0;
   std::int32_t tile_side = 0;  ///< 0: chosen by the mesh density that the borders suggest
-  /// True if refine_tiled() may return nothing for a goal so coarse that tile borders would cost vertices.
+  /// True if refine_tiled() may return none for a goal so coarse that tile borders would cost vertices.
   bool may_decline = false;
-  /// The limit is met by fewer threads, then smaller tiles if samples come from a file, finally by refusal.
+  /// To satisfy the limit, uses fewer threads, then smaller tiles if samples are in a file; fails if that does not
+  /// suffice.
   MemoryBudget memory = {};
   /// Called for each strip in turn on the calling thread. Its result is final: release_seams() must not follow. EMPTY:
   /// strips are not changed.
@@ -47,7 +48,7 @@ struct TiledOptions {
   /// EMPTY: false.
   std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};
   std::uint64_t finish_bytes_per_vertex = 0;  ///< bytes that finishing needs per vertex of the strip, its mesh included
-  std::uint64_t finish_bytes_per_sample = 0;  ///< bytes that finishing needs per sample, besides a copy of the strip's
+  std::uint64_t finish_bytes_per_sample = 0;  ///< bytes that finishing needs per sample, plus a copy of the strip's
                                               ///< samples
   /// Receives the share of finished tiles and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
@@ -63,20 +64,19 @@ struct Tiled {
   Work work;
 };
 
-/// The side of tiles for processing strip by strip, from the available memory; and the rows that such strips share,
-/// ascending.
+/// The side of tiles for processing strip by strip, from the available memory; and the rows that such strips share, in
+/// ascending order.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options);
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
-/// Reads and refines one strip at a time if the samples are not in memory or strips are finished.
-/// Every sample of the surface lies within `threshold` of the triangulation, if finish_strip() preserves this. Returns
-/// nothing if heights span magnitudes too different for exact arithmetic, or it may decline. Fails as the field's
-/// source does; with kInput without surface cells or for too many triangles; with kUsage for too little memory; with
-/// kCancelled.
+/// Reads and refines one strip at a time if the samples are not in memory or strips are finished. Every sample of the
+/// surface lies within `threshold` of the triangulation, if finish_strip() preserves this. Returns none if heights span
+/// magnitudes too different for exact arithmetic, or if it declines. Fails as the field's source does; with kInput if
+/// there are no surface cells or too many triangles; with kUsage for too little memory; and with kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
 /// Refines a raster in memory as one tile with a locked border: starts with the given vertices and adds none on the
-/// sides. Also returns nothing for nodata or a raster too large for one tile. Uses the options' threshold and memory.
+/// sides. Also returns none for nodata or a raster too large for one tile. Uses the options' threshold and memory.
 Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
                                           std::span<const Point> inside, const TiledOptions& options);
 

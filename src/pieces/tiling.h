@@ -1,4 +1,4 @@
-// How a raster is cut into tiles.
+// The division of a raster into tiles.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace scarp {
 /// Tiles of nearly equal sides.
 class Tiling {
  public:
-  /// Sides are between half and one and a half times `side` if the raster is that large.
+  /// Sides are 0.5 to 1.5 times `side` if the raster is that large.
   Tiling(std::int32_t cols, std::int32_t rows, std::int32_t side);
 
   std::size_t per_row() const { return x_.size() - 1; }

@@ -8,7 +8,7 @@ namespace scarp {
 
 namespace {
 
-/// Pixel centres, 2 values a point; (0, 0) is the image's top left corner and (1, 1) its bottom right.
+/// Pixel centres, 2 values per point; (0, 0) is the image's top left corner and (1, 1) its bottom right corner.
 std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at) {
   std::vector<float> uvs;
   uvs.reserve(2 * at.points.size());

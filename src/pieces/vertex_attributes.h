@@ -1,4 +1,4 @@
-// Vertex attributes besides positions.
+// Vertex attributes other than positions.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct LatticePoints {
 /// True if add_attributes() adds any.
 bool has_attributes(const HeightField& field, const Request& options);
 
-/// Adds the requested normals and positions in the raster's image, and the field's channels. `field`: as refined; with
-/// a locked border as given. `at`: the vertices. Throws SourceFailure.
+/// Adds the requested normals and positions in the raster's image, and the field's channels. `field`: the refined one;
+/// with a locked border, the given one. `at`: the vertices. Throws SourceFailure.
 void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh);
 
 }  // namespace scarp

@@ -21,7 +21,7 @@ class CandidateStore {
   virtual Candidate candidate(std::uint32_t id) const = 0;
   /// Ids below `count` may be used from now on; new ones have no candidate.
   virtual void grow(std::size_t count) = 0;
-  /// Gives the triangle a candidate, or another one.
+  /// Sets or replaces the triangle's candidate.
   virtual void set(std::uint32_t id, const Candidate& candidate) = 0;
   virtual void remove(std::uint32_t id) = 0;
   /// Appends the triangles whose candidate's error is at least `least`, in any order.
@@ -31,7 +31,7 @@ class CandidateStore {
 };
 
 /// A 4-ary max-heap of triangle ids with a back-index, so that a rescanned triangle is re-keyed in place (Garland &
-/// Heckbert 1995, section 4.3). 24 bytes a triangle.
+/// Heckbert 1995, section 4.3). Uses 24 bytes per triangle.
 class CandidateQueue final : public CandidateStore {
  public:
   bool empty() const override { return heap_.empty(); }
@@ -43,11 +43,11 @@ class CandidateQueue final : public CandidateStore {
     if (count <= known) return;
     slots_.resize(count);
     std::fill(slots_.begin() + known, slots_.end(), kNotQueued);
-    errors_.resize(count);  // written when they are queued
+    errors_.resize(count);  // written when triangles are queued
     points_.resize(count);
   }
 
-  /// A triangle that is queued is re-keyed where it stands.
+  /// Re-keys a queued triangle in place.
   void set(std::uint32_t id, const Candidate& candidate) override {
     std::size_t slot = slots_[id];
     const bool was_queued = slots_[id] != kNotQueued;
@@ -131,7 +131,7 @@ class CandidateQueue final : public CandidateStore {
   std::uint64_t moves_ = 0;
 };
 
-/// No order at all: the worst is found by scanning every triangle, once after each change.
+/// An unordered list: finds the worst candidate by scanning every triangle, once after each change.
 class CandidateList final : public CandidateStore {
  public:
   bool empty() const override { return count_ == 0; }

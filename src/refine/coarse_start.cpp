@@ -11,8 +11,8 @@ namespace {
 
 struct Attempt {
   std::int32_t step;
-  double expected;  ///< tried where this share of the coarse samples or less is expected to be needed
-  double most;      ///< kept where this share or less is needed
+  double expected;  ///< tried if at most this share of the coarse samples is expected to be needed
+  double most;      ///< kept if at most this share is needed
 };
 constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.03}};
 constexpr Attempt kRoughAttempts[] = {{8, 0.25, 0.12}, {4, 0.08, 0.06}};
@@ -25,7 +25,7 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
   for (const Attempt& attempt : is_rough ? kRoughAttempts : kAttempts) {
     const std::int32_t step = attempt.step;
-    // Fewer than some 16 coarse samples a side show nothing about the terrain.
+    // Fewer than some 16 coarse samples per side show nothing about the terrain.
     if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;
     if (!refine(tile, step, attempt.most, threshold)) continue;
     TileMesh::Id last = 0;

@@ -10,7 +10,7 @@ namespace {
 
 bool is_inside(const Triangulation& tin, HalfEdge h) { return h != kNone && !tin.is_outside(h / 3); }
 
-/// Its triangle is part of the domain, and none on the other side is.
+/// True if the half-edge's triangle is part of the domain, but no triangle on the other side.
 bool is_boundary(const Triangulation& tin, HalfEdge h) { return is_inside(tin, h) && !is_inside(tin, tin.twin(h)); }
 
 struct LongEdge {
@@ -50,7 +50,7 @@ std::size_t take_away_long(ScatteredDomain& domain, double longest) {
   while (!edges.empty()) {
     const HalfEdge h = edges.top().edge;
     edges.pop();
-    // A corner on the boundary stays there, so a triangle that must stay once must stay for good.
+    // A corner on the boundary remains there, so a triangle that must remain now must always remain.
     if (is_on_boundary[tin.origin(Triangulation::previous(h))]) continue;
     tin.set_outside(h / 3, true);
     ++taken;
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain) {
 
 Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, ScatteredDomain hull, double length) {
   add_points(points, 1, hull);
-  // Two ends moved by half a step each, and rounding; an edge of just this length stays.
+  // Includes half a step for each moved end, and rounding; an edge of just this length remains.
   const double longest = length / points.lattice.step * (1 + 1e-12) + (points.is_exact ? 0 : 1);
   take_away_long(hull, longest);
   const std::vector<std::vector<std::uint32_t>> outlines{outline_of(hull)};

@@ -10,14 +10,14 @@ namespace scarp {
 
 namespace {
 
-/// Each flip of an improvement lowers the total score, so a chain of them ends; a long one is not worth its scans.
+/// Each flip lowers the total score, so a chain of flips ends; a long chain is not worth its scans.
 constexpr std::size_t kMostFlips = 64;
 
 double default_threshold(EdgeScore score) { return score == EdgeScore::kTight ? 0.1 : 0.5; }
 
 }  // namespace
 
-/// Flips by score alone, where that makes no triangle too thin.
+/// Flips by score only, if no triangle becomes too thin.
 struct DataDependentRule::Improver final : public FlipRule {
   explicit Improver(DataDependentRule& owner_) : owner(owner_) {}
   bool should_flip(const Triangulation& tin, HalfEdge h) override {
@@ -45,7 +45,7 @@ Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Loc
   for (Triangle t : changed_) {
     if (tin.is_outside(t)) continue;
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      // A spoke lies between two triangles of the star: once is enough.
+      // A spoke belongs to two triangles of the star, but is tested once.
       const bool is_spoke = tin.origin(h) == v || tin.origin(Triangulation::next(h)) == v;
       if (!is_spoke || h < tin.twin(h)) edges.push_back(h);
     }
@@ -101,7 +101,8 @@ bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
     score -= metric_.squares_between(quad.kept[0][0], quad.kept[0][1]);
     score += metric_.squares_between(quad.other[0][0], quad.other[0][1]);
   }
-  // A scan may stop once its triangle alone loses; the slightly larger limit defers ties to the comparison of the sums.
+  // A scan may stop once its triangle alone decides against the flip; the slightly larger limit defers ties to the
+  // comparison of sums.
   const auto look = [&](const Quadrilateral::Corners& corners, double most) {
     const double limit = most + 0x1p-40 * score;
     return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(limit) : limit);

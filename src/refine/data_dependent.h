@@ -1,9 +1,9 @@
 // Algorithm IV: edges that fit the data (Garland & Heckbert 1995, section 4.4; Scape's CheckSwap).
 //
-// For the quadrilateral of an edge that faces the new vertex both diagonals are scored by the errors of the triangles
-// they make, and the better one is kept; where the shapes differ too much, the better shaped one. Facts about a
-// triangle are kept until the triangle is gone, so that nothing is scanned twice. Unlike Scape's, every scan covers the
-// closed triangle, so no sample gets lost between two of them.
+// For the quadrilateral of an edge that faces the new vertex, each diagonal is scored by the errors of its two
+// triangles. The better diagonal is kept; if shapes differ too much, the one with better shapes. The fit of a triangle
+// is cached until the triangle is removed, so no triangle is scanned twice. Unlike in Scape, every scan covers the
+// closed triangle, so no sample is lost between triangles.
 #pragma once
 
 #include <vector>
@@ -17,14 +17,15 @@ namespace scarp {
 
 class DataDependentRule final : public FlipRule {
  public:
-  /// The metric stays alive.
+  /// The metric must outlive this.
   DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule);
 
-  /// The rule for edges that face a new vertex: the score decides, or the shape.
+  /// The rule for edges that face a new vertex: by score or by shape.
   bool should_flip(const Triangulation& tin, HalfEdge h) override;
-  /// Inserts p under this rule; for EdgeScore::kTight the edges around it are then tried by score until none improves.
+  /// Inserts p under this rule. For EdgeScore::kTight, the edges around p are then flipped by score until no flip
+  /// improves it.
   Vertex insert(Triangulation& tin, Point p, Triangulation::Location location);
-  /// Triangles that the last insert() changed: those around the new vertex, and where edges beyond them were flipped.
+  /// Triangles that the last insert() changed: around the new vertex, and at flipped edges beyond.
   const std::vector<Triangle>& changed() const { return changed_; }
   /// The fit of a triangle that is not outside.
   const Fit& fit_of(const Triangulation& tin, Triangle t) { return cache_.fit_of(tin, t); }

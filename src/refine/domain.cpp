@@ -43,9 +43,9 @@ HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<
   return kNone;
 }
 
-/// Marks what lies outside: triangles that no path without a constrained edge connects with the left of an outline's
-/// edge. Samples do not show it: a simplified outline may enclose triangles of nodata alone, with samples at their
-/// corners.
+/// Marks triangles as outside that no path without constrained edges connects with the left side of an outline's edge.
+/// Samples cannot decide this: a simplified outline may enclose triangles that contain only nodata, with samples at
+/// their corners.
 Result<void> mark_outside(Triangulation& tin, const Outline& outline) {
   for (Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
   std::vector<Triangle> stack, star;
@@ -117,12 +117,12 @@ void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame&
     }
     frame.transform->apply(xs, ys);
     const double dx = xs.back() - xs.front(), dy = ys.back() - ys.front(), length = std::hypot(dx, dy);
-    // Across the chord only: a shift along it moves no sample off the mesh.
+    // Only the shift across the chord counts: a shift along the chord moves no sample off the mesh.
     double worst = kStray * length / steps;
     std::int32_t split = 0;
     for (std::int32_t i = 1; i < steps; ++i) {
       const double stray = std::abs(dx * (ys[i] - ys.front()) - dy * (xs[i] - xs.front())) / length;
-      // Under an exact outline all are valid.
+      // Under an exact outline, all samples are valid.
       const bool is_valid = raster.samples == nullptr || raster.is_valid({a.x + i * unit.x, a.y + i * unit.y});
       if (stray > worst && is_valid) {
         worst = stray;

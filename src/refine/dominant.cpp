@@ -23,7 +23,7 @@ class Walk {
     while (!stack_.empty()) {
       const auto [key, t] = stack_.back();
       if (mesh_[t].key != key) {
-        stack_.pop_back();  // changed since it was put there
+        stack_.pop_back();  // changed since it was pushed
         continue;
       }
       const TilePoint p = candidate_of(key);

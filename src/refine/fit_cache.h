@@ -1,4 +1,4 @@
-// The facts known about triangles, so that none is scanned twice for the same question.
+// The known fits of triangles, so that no triangle is scanned twice for the same question.
 #pragma once
 
 #include <algorithm>
@@ -15,29 +15,29 @@ namespace scarp {
 
 class FitCache {
  public:
-  /// The metric stays alive. `supersample`: see EdgeRule.
+  /// The metric must outlive this. `supersample`: see EdgeRule.
   FitCache(const ErrorMetric& metric, bool squares, double supersample)
       : metric_(metric), squares_(squares), supersample_(supersample) {}
 
-  /// Fit of a triangle that is not outside: remembered, or computed now. Valid until the next call.
+  /// Fit of a triangle that is not outside: cached, or computed now. Valid until the next call.
   const Fit& fit_of(const Triangulation& tin, Triangle t) {
     const std::array<Vertex, 3> corners{tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)};
     if (t >= known_.size() || known_[t].corners != ascending(corners)) remember(t, corners, look(tin.corners(t)));
     return known_[t].fit;
   }
-  /// Fit of a triangle that may come to be; given up once its score reaches `give_up`.
+  /// Fit of a possible triangle; the scan stops once its score reaches `give_up`.
   Fit look(const std::array<Point, 3>& corners, double give_up = std::numeric_limits<double>::infinity()) {
     FitQuestion question;
     question.squares = squares_;
     question.lattice = find_lattice(corners, supersample_);
-    // On the finer lattice the score may turn out smaller than on the samples: it is never given up early.
+    // On the finer lattice, the score may be smaller than on the samples, so the scan does not stop early.
     if (question.lattice == 1) (squares_ ? question.give_up_squares : question.give_up_max) = give_up;
     const Fit fit = metric_.fit(corners, question);
     samples_ += fit.scanned;
     ++triangles_;
     return fit;
   }
-  /// The scanned triangle is t from now on, while t has these corners.
+  /// Stores the fit of t, valid while t has these corners.
   void remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit) {
     if (t >= known_.size()) known_.resize(t + 1);
     known_[t] = {ascending(corners), fit};

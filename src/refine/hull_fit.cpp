@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostPoints = 50000;
 
-/// The value that a tenth of them exceeds.
+/// The value that a tenth of the values exceeds.
 double ninth_decile(std::vector<double> values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 9 / 10);
   std::nth_element(values.begin(), at, values.end());
@@ -42,7 +42,7 @@ double area_of(const Triangulation& tin) {
   return twice / 2;
 }
 
-/// Rise over run by triangle, in units of z over those of x and y; NaN outside.
+/// Rise over run by triangle, in units of z per unit of x and y; NaN outside.
 std::vector<double> find_slopes(const SnappedPoints& points, const ScatteredDomain& domain) {
   const Triangulation& tin = domain.tin;
   const auto z = [&](HalfEdge h) { return points.z[domain.point_of[tin.origin(h)]]; };
@@ -58,7 +58,7 @@ std::vector<double> find_slopes(const SnappedPoints& points, const ScatteredDoma
   return slopes;
 }
 
-/// Upwards, to two digits.
+/// Rounds up to two digits.
 double round_up(double length) {
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1);
   return std::ceil(length / unit) * unit;

@@ -1,4 +1,4 @@
-// Checks if the convex hull fits scattered points, or bridges bays and has slivers at a straight rim.
+// Checks if the convex hull fits scattered points, or if it bridges bays and has slivers at a straight rim.
 #pragma once
 
 #include "grid/snapped_points.h"
@@ -6,13 +6,12 @@
 
 namespace scarp {
 
-/// Finds the part that two concave hulls remove from the Delaunay triangulation of the points, of 50,000 of them where
-/// there are more. The first has edges of three times the length that a tenth of all edges exceeds. If n points are
-/// scattered evenly it removes some 1 / sqrt(n) of the area: two and a half times that, and 5 %, is a bay. The second
-/// has edges of half that length. It removes up to 0.3 sqrt(n) steep triangles from points scattered evenly, up to 0.6
-/// sqrt(n) from those near the nodes of a grid, and 0.8 to 1.8 sqrt(n) from those with stations along straight rims.
-/// Steep: above 80 degrees, and ten times the slope that a tenth of all triangles exceeds. REQUIRES:
-/// build_domain(points) succeeds.
+/// Finds the part that two concave hulls remove from the Delaunay triangulation of the points, or of 50,000 of them if
+/// there are more. The first hull has edges of three times the length that a tenth of all edges exceeds. It removes
+/// some 1 / sqrt(n) of the area if n points are scattered evenly; 2.5 times that, and 5 %, is a bay. The second hull
+/// has edges of half that length. It removes up to 0.3 sqrt(n) steep triangles from evenly scattered points, up to 0.6
+/// sqrt(n) from points near the nodes of a grid, and 0.8 to 1.8 sqrt(n) from stations along straight rims. Steep: above
+/// 80 degrees, and ten times the slope that a tenth of all triangles exceeds. REQUIRES: build_domain(points) succeeds.
 HullFit find_hull_fit(const SnappedPoints& points);
 
 }  // namespace scarp

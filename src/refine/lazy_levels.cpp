@@ -16,15 +16,15 @@ namespace {
 using Id = TileMesh::Id;
 using Limits = std::numeric_limits<float>;
 
-// Bits of a positive float, read as an integer, are its logarithm but for a curve within each octave: good enough for
-// an estimate, the same on every machine.
+// The bits of a positive float, read as an integer, are its logarithm except for a curve within each octave. That
+// suffices for an estimate, and is the same on every machine.
 constexpr int kMantissaBits = 23;
-constexpr int kBucketBits = 3;  // 8 buckets an octave
-constexpr unsigned kSlack = 2;  // buckets; a candidate this far below the level is inserted at once
+constexpr int kBucketBits = 3;  // 8 buckets per octave
+constexpr unsigned kSlack = 2;  // in buckets; a candidate up to this far below the level is inserted at once
 
 std::int64_t bits_of(float value) { return bit_cast<std::int32_t>(value); }
 
-/// First in, first out. Its memory is free again when it is empty.
+/// First in, first out. An emptied bucket reuses its memory.
 class Bucket {
  public:
   bool empty() const { return head_ == ids_.size(); }
@@ -99,7 +99,7 @@ class Levels {
       t = buckets_[level].pop();
       if (buckets_[level].empty()) filled_ &= ~(std::uint64_t{1} << level);
       std::int64_t key = mesh_[t].key;
-      if (key <= 0 || bucket_of(key) < level) continue;  // another triangle by now, which waits elsewhere or needs not
+      if (key <= 0 || bucket_of(key) < level) continue;  // now another triangle, which waits elsewhere or need not wait
       if (is_estimate(key)) {
         key = scan(t);
         if (key == 0) continue;
@@ -112,7 +112,7 @@ class Levels {
     }
   }
 
-  /// The next triangle that was never scanned, round and round; false if a whole round found none.
+  /// Finds the next triangle that was never scanned, cyclically; false if a whole round found none.
   bool sweep(Id& t) {
     for (;;) {
       while (cursor_ < mesh_.triangle_count() && !is_estimate(mesh_[cursor_].key)) ++cursor_;
@@ -159,12 +159,12 @@ class Levels {
   TileMesh& mesh_;
   TileScanner& scanner_;
   AreaPower power_;
-  std::int64_t floor_;  // least estimate; never 0, which would mean that nothing waits
+  std::int64_t floor_;  // smallest estimate; never 0, which means that no triangle waits
   std::int64_t base_;   // value of the lowest bucket
   std::array<Bucket, kBuckets> buckets_;
   std::uint64_t filled_ = 0;  // bit per bucket
   Id cursor_ = 0;             // position of the sweep
-  bool has_found_ = false;    // in this round of it
+  bool has_found_ = false;    // in this round of the sweep
   DominantRun done_;
 };
 

@@ -14,7 +14,7 @@ namespace scarp {
 
 namespace {
 
-/// p on the segment, but at no end of it.
+/// True if p is on the segment, but not at its ends.
 bool is_within(const Segment& s, Point p) {
   if (p == s.from || p == s.to || orient(s.from, s.to, p) != 0) return false;
   return std::min(s.from.x, s.to.x) <= p.x && p.x <= std::max(s.from.x, s.to.x) && std::min(s.from.y, s.to.y) <= p.y &&
@@ -98,7 +98,7 @@ Result<void> PointLines::check_meetings() const {
       owners.emplace_back(line, k);
     }
   }
-  // If snapping moves lines, heights where they meet are as uncertain as the lines climb there.
+  // If snapping moves lines, heights where they meet are uncertain by the lines' climb there.
   const double moved = snapped_->is_exact ? 0 : 2;
   const auto z_at = [&](std::uint32_t line, std::size_t k) { return points_->z[sources_[line][k]]; };
   std::optional<Error> error;
@@ -115,7 +115,7 @@ Result<void> PointLines::check_meetings() const {
                           "or leave it out",
                           a == b ? one + " crosses itself" : fmt::format("{} and {} meet", one, other), x, y, za, zb)};
   };
-  // Vertices in common first.
+  // Common vertices first.
   std::vector<std::uint32_t> first(snapped_->size(), kNone);
   for (std::uint32_t s = 0; s < segments.size() + lines_.size(); ++s) {
     const bool is_last = s >= segments.size();
@@ -166,7 +166,8 @@ Result<void> PointLines::check_meetings() const {
   return {};
 }
 
-/// The point between the ends that is farthest from the chord, the first of several. REQUIRES: there is one.
+/// The point between the ends that is farthest from the chord; the first one for ties. REQUIRES: a point between the
+/// ends.
 std::uint32_t PointLines::farthest(const Chord& chord) const {
   const Segment s = segment_of(chord);
   const double dx = double(s.to.x) - s.from.x, dy = double(s.to.y) - s.from.y, square = dx * dx + dy * dy;

@@ -1,9 +1,9 @@
 // Lines through scattered points, as chains of edges.
 //
-// A chain passes those points of its line that are vertices; its edges are the chords between successive ones. So it
-// needs no vertex that the surface does not need, but for its ends and for those that keep two chains apart: chords
-// that meet get the farthest point of their line between them, until none meet. That ends, since whole lines meet only
-// where they have the same height.
+// A chain passes those points of its line that are vertices. Its edges are the chords between successive vertices. So
+// it adds only its ends to the vertices of the surface, and vertices that separate two chains. Chords that meet are
+// split at the farthest point of their line until none meet. This ends, since whole lines meet only where they have the
+// same height.
 #pragma once
 
 #include <array>
@@ -21,21 +21,23 @@ namespace scarp {
 
 class PointLines {
  public:
-  /// Fails with kInput where two lines meet with unlike heights, which it names. Both stay alive.
+  /// Fails with kInput if two lines meet with different heights, which the error names. `points` and `snapped` must
+  /// outlive the result.
   static Result<PointLines> build(const PointSet& points, const SnappedPoints& snapped);
 
   bool empty() const { return lines_.empty(); }
-  /// By point: whether a line passes.
+  /// By point: true if a line passes it.
   const std::vector<bool>& on_lines() const { return is_on_line_; }
-  /// Points that must be vertices: the ends of lines, three of a ring.
+  /// Points that must be vertices: the ends of lines, and three points per ring.
   std::vector<std::uint32_t> ends() const;
-  /// Points whose insertion parts chords that meet; empty once no chords do that can be parted. `is_vertex`: by point.
+  /// Points to insert to separate chords that meet; empty once no separable chords meet. `is_vertex`: by point.
   std::vector<std::uint32_t> find_splits(const std::vector<bool>& is_vertex) const;
-  /// Constrains the chords and nothing else but the hull. Returns how many cannot be, since they cross others.
+  /// Constrains only the chords and the hull. Returns the number of chords that cannot be constrained, since they cross
+  /// others.
   std::uint64_t hold(ScatteredDomain& domain) const;
 
  private:
-  /// Points [begin, end] of a line, the ends vertices and no other.
+  /// Points [begin, end] of a line, of which only the ends are vertices.
   struct Chord {
     std::uint32_t line, begin, end;
   };
@@ -49,13 +51,13 @@ class PointLines {
 
   const PointSet* points_;
   const SnappedPoints* snapped_;
-  std::vector<std::vector<std::uint32_t>> lines_;    ///< lattice points, successive ones differ
+  std::vector<std::vector<std::uint32_t>> lines_;    ///< lattice points; successive points differ
   std::vector<std::vector<std::uint32_t>> sources_;  ///< for each: the point of the set
   std::vector<std::uint32_t> given_;                 ///< for each: the line of the set
   std::vector<bool> is_on_line_;
 };
 
-/// By point: whether the domain has it as a vertex.
+/// By point: true if it is a vertex of the domain.
 std::vector<bool> find_vertices(const ScatteredDomain& domain, std::size_t points);
 
 }  // namespace scarp

@@ -16,7 +16,7 @@ class PointSurface {
 
   struct Height {
     double z = 0;
-    double distance = 0;  ///< from the hull, in units of x and y, where the place lies beyond; then z is that of the
+    double distance = 0;  ///< from the hull, in units of x and y, if the place lies beyond; then z is that of the
                           ///< nearest place on it
   };
   Height at(double x, double y) const;

@@ -8,8 +8,8 @@
 
 namespace scarp {
 
-/// For h = a→b in (a, b, c) whose twin lies in (b, a, d): the two triangles that are there, and the two that a flip
-/// makes of the same slots (see FlipRule).
+/// For h = a→b in (a, b, c), with its twin in (b, a, d): the two present triangles, and the two after a flip, in the
+/// same slots (see FlipRule).
 struct Quadrilateral {
   using Corners = std::array<Point, 3>;
 

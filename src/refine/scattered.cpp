@@ -19,7 +19,8 @@ Vertex insert_corner(ScatteredDomain& domain, const SnappedPoints& points, std::
   return domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
 }
 
-/// How far the corners reach across the line from the farthest of them from any corner to the farthest from that one.
+/// The extent of the corners across the line between two far corners: the farthest from any corner, and the farthest
+/// from that one.
 double width_across(std::span<const Point> at, const std::vector<std::uint32_t>& hull) {
   const auto distance = [](Point a, Point b) { return std::hypot(double(b.x) - a.x, double(b.y) - a.y); };
   const auto farthest_from = [&](Point p) {
@@ -37,7 +38,7 @@ double width_across(std::span<const Point> at, const std::vector<std::uint32_t>&
   return static_cast<double>(most - least) / distance(a, b);
 }
 
-/// True for a place inside rings by the rule of even and odd. Coordinates of the place are three times those of points.
+/// True for a place inside rings by the even-odd rule. Coordinates of the place are three times those of points.
 bool is_inside(const SnappedPoints& points, const std::vector<std::vector<std::uint32_t>>& rings, std::int64_t x,
                std::int64_t y) {
   bool is_inside = false;
@@ -54,7 +55,8 @@ bool is_inside(const SnappedPoints& points, const std::vector<std::vector<std::u
   return is_inside;
 }
 
-/// Marks the triangles outside the rings, whose edges are constrained: all in an area between them alike.
+/// Marks the triangles outside the rings, whose edges are constrained; all triangles of an area between rings get the
+/// same mark.
 void mark_beyond(const SnappedPoints& points, ScatteredDomain& domain) {
   Triangulation& tin = domain.tin;
   std::vector<bool> is_seen(tin.triangle_count());
@@ -120,7 +122,7 @@ Result<ScatteredDomain> build_domain(const SnappedPoints& points,
   domain.point_of.assign(4, kNone);
   std::vector<std::vector<Vertex>> rings;
   for (const auto& outline : outlines) {
-    // Coarse to fine: one after the other around a circle, every corner would change the triangles of all before it.
+    // Coarse to fine: in order around a circle, every corner would change the triangles of all previous corners.
     for (std::size_t stride = std::bit_ceil(outline.size()); stride > 0; stride /= 2) {
       for (std::size_t i = 0; i < outline.size(); i += stride) {
         if (i % (2 * stride) != 0) insert_corner(domain, points, outline[i]);
@@ -164,7 +166,7 @@ ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<
     const HalfEdge twin = tin.twin(location.edge);
     if (tin.is_outside(hint) && location.kind == Triangulation::Location::Kind::kOnEdge && twin != kNone)
       hint = twin / 3;
-    // Beyond an edge of the boundary by its rounding: the judge decides whether that is near enough.
+    // The point is beyond a boundary edge by the edge's rounding; the judge decides whether that is near enough.
     if (tin.is_outside(hint)) continue;
     next_[point] = first_[hint];
     first_[hint] = point;
@@ -204,7 +206,7 @@ bool ScatteredRefinement::exceeds(const Wedge& wedge, std::uint32_t point) const
                          bounds_.empty() ? threshold_ : bounds_[point]);
 }
 
-/// Queues the triangle with its worst point, if that exceeds the threshold as a real number.
+/// Queues the triangle with its worst point, if the point's error exceeds the threshold as a real number.
 void ScatteredRefinement::settle(const Wedge& wedge) {
   ++dealt_;
   const Triangle t = wedge.triangle;
@@ -214,7 +216,7 @@ void ScatteredRefinement::settle(const Wedge& wedge) {
     worst_[t] = point;
   };
   if (error > threshold_ + guard) return queue(wedge.worst, wedge.worst_point);
-  // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
+  // A level plane has no guard: only one subtraction rounds, and monotonically, so only equality is uncertain.
   const bool is_certain = error < threshold_ - guard || (guard == 0 && (threshold_ == 0 || error != threshold_));
   if (is_certain) return queue_.remove(t);
   Wedge doubtful = wedge;
@@ -230,7 +232,7 @@ void ScatteredRefinement::settle(const Wedge& wedge) {
   queue(doubtful.worst, doubtful.worst_point);
 }
 
-/// Deals out the points of the triangles around a new vertex among them.
+/// Redistributes the points of the triangles around a new vertex among these triangles.
 void ScatteredRefinement::deal(Vertex v) {
   const Triangulation& tin = domain_.tin;
   tin.star(v, star_);
@@ -238,7 +240,7 @@ void ScatteredRefinement::deal(Vertex v) {
   for (const Triangle t : star_) {
     if (!tin.is_outside(t)) wedges_.push_back(wedge_of(t, v));
   }
-  // All lists are moved out before any is written: most of these triangles keep their ids and had lists of their own.
+  // All lists are moved out before any is written, because most of these triangles keep their ids and had lists.
   lists_.clear();
   for (const Wedge& wedge : wedges_) {
     lists_.push_back(first_[wedge.triangle]);

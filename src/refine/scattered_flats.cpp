@@ -1,6 +1,6 @@
-// Flat triangles: in the bend of a contour three of its points make a triangle without slope, a terrace that the land
-// does not have. Where the quadrilateral with the next triangle is convex, the other diagonal leads to the next contour
-// instead.
+// Flat triangles: in the bend of a contour, three of its points form a triangle without slope, a terrace that the land
+// does not have. If the quadrilateral with the adjacent triangle is convex, its other diagonal leads to the next
+// contour.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace {
 
-/// Not so thin that a vertex, moved by the rounding of a file, comes to lie beyond the triangle.
+/// False if the triangle is so thin that the rounding of a file may move a vertex beyond it.
 bool is_thick(Point a, Point b, Point c) {
   constexpr double kThinnest = 1.0 / 64;  // height over longest side
   const auto square = [](Point p, Point q) {

@@ -16,7 +16,7 @@ bool contains(const std::array<Point, 3>& corners, Point p) {
          orient(corners[2], corners[0], p) >= 0;
 }
 
-/// The sample as a candidate of the triangle, if it exceeds the threshold there.
+/// The sample as a candidate of the triangle, if its error exceeds the threshold there.
 std::optional<Candidate> assess(const Raster& raster, const std::array<Point, 3>& corners, Point p, double threshold) {
   if (!raster.is_valid(p) || !contains(corners, p)) return std::nullopt;
   const std::array<float, 3> heights{raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};

@@ -18,7 +18,7 @@ void grow(Array<float>& values, std::ptrdiff_t least) {
 
 float* Tile::resize(std::int32_t cols, std::int32_t rows) {
   std::ptrdiff_t stride = (cols + kTilePadding - 1) / kTilePadding * kTilePadding + kTilePadding;
-  // Rows a multiple of 4 KiB apart would share a few lines of the cache.
+  // Rows at multiples of 4 KiB would share a few cache lines.
   if (stride % 1024 == 0) stride += kTilePadding;
   const std::ptrdiff_t block_rows = (rows + kBlock - 1) / kBlock;
   const std::ptrdiff_t block_stride = (cols + kBlock - 1) / kBlock + kTilePadding;

@@ -1,4 +1,4 @@
-// The samples of one tile, in memory of their own.
+// A copy of the samples of one tile.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ struct TileWindow {
   std::int32_t col = 0, row = 0, cols = 0, rows = 0;
 };
 
-/// Padded samples and blocks, filled again and again: memory is kept from tile to tile.
+/// Padded samples and blocks, refilled for each tile: memory is reused.
 class Tile {
  public:
   /// Fails as the field's source does. REQUIRES: a window in the raster, sides 2 … kMaxTileSide.
   Result<void> load(const HeightField& field, const TileWindow& window);
-  /// Every `step`-th sample of a tile, from its first on. REQUIRES: at least two of them each way.
+  /// Loads every `step`-th sample of a tile, from the first on. REQUIRES: at least two such samples each way.
   void load_coarse(const Tile& fine, std::int32_t step);
 
   const TileView& view() const { return view_; }
   bool is_whole() const { return nodata_ == 0; }
-  float largest_height() const { return largest_height_; }  ///< magnitude; of the samples that are heights
+  float largest_height() const { return largest_height_; }  ///< largest magnitude of valid samples
 
  private:
   float* resize(std::int32_t cols, std::int32_t rows);

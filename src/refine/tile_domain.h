@@ -8,8 +8,8 @@
 
 namespace scarp {
 
-/// Two triangles over the tile, with the outline of its valid data constrained where it has nodata, and `border`
-/// (points on its sides) inserted. A part that is no surface is outside; that may be everything. Fails with kInternal
+/// Two triangles over the tile, with constrained edges along the outline of its valid data if it has nodata, and with
+/// `border` (points on its sides) inserted. Parts that are not surface, possibly all, are outside. Fails with kInternal
 /// if edges of the outline cross.
 Result<void> start_tile(const Tile& tile, std::span<const TilePoint> border, TileMesh& mesh);
 

@@ -8,14 +8,14 @@ namespace scarp {
 namespace {
 
 // Measured on 45 rasters at 0.4 to 12 % of the samples (bench/performance.md, "Order").
-constexpr double kRough = 1.75;       // growth of bends below which areas alone decide the order
-constexpr double kModerate = 2;       // below which their square roots do
-constexpr double kDense = 0.13;       // vertices a sample: triangles of few samples, errors of no common size
-constexpr double kFewVertices = 500;  // in a tile: nothing to gain
+constexpr double kRough = 1.75;       // growth of bends below which only areas decide the order
+constexpr double kModerate = 2;       // growth below which square roots of areas decide
+constexpr double kDense = 0.13;       // vertices per sample: triangles have few samples, errors no common size
+constexpr double kFewVertices = 500;  // in a tile: too few to gain anything
 
-constexpr std::int32_t kLooks = 48;  // a side
+constexpr std::int32_t kLooks = 48;  // per side
 
-/// How much bends grow from `distance` to twice that; infinite where it is unknown.
+/// The growth of bends from `distance` to twice that; infinite if unknown.
 double growth_of_bends(const TileView& tile, std::int32_t distance) {
   const std::int32_t far = 2 * distance;
   const std::int32_t cols = tile.cols - 2 * far, rows = tile.rows - 2 * far;

@@ -1,12 +1,12 @@
-// The order that suits a tile, from its terrain.
+// Chooses the order of insertion that suits the terrain of a tile.
 //
-// The lazy order guesses errors from areas (lazy_levels.h). That is a good guess where the terrain is rough: there a
-// triangle's error is an extreme of many samples that know little of each other, and grows slowly with its size. Where
-// it is smooth one bend fills a triangle, and neighbours must be compared.
+// The lazy order estimates errors from areas (lazy_levels.h). The estimate is good on rough terrain, where a triangle's
+// error is an extreme of many nearly independent samples and grows slowly with its size. On smooth terrain, one bend
+// fills a triangle, and neighbours must be compared.
 //
-// The test compares the mean bend (second difference) of samples that lie d apart, with that of samples 2d apart, where
-// d is the distance of neighbouring vertices to be expected. On a smooth surface the bend grows 4 times from d to 2d,
-// on noise not at all, on real terrain 1.1 to 3 times.
+// The test compares the mean bend (second difference) of samples d apart with that of samples 2d apart, where d is the
+// expected distance of neighbouring vertices. From d to 2d, the bend grows 4 times on a smooth surface, not at all on
+// noise, and 1.1 to 3 times on real terrain.
 #pragma once
 
 #include "geom/tile_view.h"
@@ -15,7 +15,7 @@ namespace scarp {
 
 enum class TileOrder { kDominant, kLazyHalf, kLazyOne };
 
-/// A function of the tile's samples and of `density`, the vertices a sample to be expected, alone.
+/// Depends only on the tile's samples and on `density`, the expected vertices per sample.
 TileOrder choose_order(const TileView& tile, double density);
 
 }  // namespace scarp

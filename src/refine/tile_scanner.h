@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// The candidate of a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point, so
-/// that the larger key is the larger error, or the first point in raster order among equal errors; 0 if nothing waits.
+/// The candidate of a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point. So
+/// the larger key is the larger error, or the first point in raster order among equal errors; 0: no candidate.
 constexpr std::int64_t candidate_key(float error, TilePoint at) {
   return error > 0 ? static_cast<std::int64_t>(std::uint64_t{bit_cast<std::uint32_t>(error)} << 32 |
                                                static_cast<std::uint32_t>(~at))
@@ -26,18 +26,18 @@ struct SharedSides {
   bool left = false, top = false, right = false, bottom = false;
 };
 
-/// Heights against one threshold: the plain metric's promise, by the kernels' arithmetic. A triangle's candidate is
-/// the sample with the largest error among those that exceed the threshold as real numbers.
+/// Compares heights with one threshold: the guarantee of the plain metric, with the kernels' arithmetic. A triangle's
+/// candidate is the sample with the largest error among those that exceed the threshold as real numbers.
 class TileScanner {
  public:
-  /// The tile's samples stay alive; each is at most kMaxScanHeight in magnitude.
+  /// The tile's samples must outlive this. REQUIRES: each is at most kMaxScanHeight in magnitude.
   TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels = scan_kernels());
 
-  /// Gives each triangle that is not outside its candidate_key(). `hints`: see ScanKernels::scan.
+  /// Sets candidate_key() of each triangle that is not outside. `hints`: see ScanKernels::scan.
   void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const TilePoint> hints);
 
-  /// Sides on which no sample breaks its bound, whatever is inserted. Should exact arithmetic give up there (heights
-  /// whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
+  /// Sets the sides on which no sample breaks its bound, for any inserted points. If exact arithmetic fails there (for
+  /// heights whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
   void set_shared(const SharedSides& sides) { shared_ = sides; }
   bool has_given_up() const { return has_given_up_; }
 
@@ -52,7 +52,7 @@ class TileScanner {
   const ScanKernels& kernels_;
   TileView tile_;
   double threshold_;
-  HeightMetric metric_;  // decides what float32 cannot
+  HeightMetric metric_;  // decides if float32 cannot
   SharedSides shared_;
   bool has_given_up_ = false;
   std::vector<std::array<TilePoint, 3>> corners_;

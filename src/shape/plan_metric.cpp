@@ -38,7 +38,7 @@ double PlanMetric::dot(Point apex, Point a, Point b) const {
 
 bool PlanMetric::is_in_circle(const std::array<Point, 3>& corners, Point d) const {
   if (is_similar_) return in_circle(corners[0], corners[1], corners[2], d) > 0;
-  // The frame may mirror triangles: signs come from offsets on the lattice, squares from the plan.
+  // The frame may mirror triangles, so signs come from offsets on the lattice, and squares from the plan.
   std::array<double, 3> x, y, squares;
   for (std::size_t k = 0; k < 3; ++k) {
     x[k] = double(corners[k].x) - d.x;

@@ -8,7 +8,8 @@
 
 namespace scarp {
 
-/// Offsets of lattice points in an affine frame. Only IEEE arithmetic and square roots: the same on every machine.
+/// Offsets of lattice points in an affine frame. Uses only IEEE arithmetic and square roots, which are the same on
+/// every machine.
 class PlanMetric {
  public:
   using Vector = std::array<double, 2>;
@@ -24,13 +25,13 @@ class PlanMetric {
   double shorter_side() const { return short_side_; }  ///< Shorter side of a sample.
   double longer_side() const { return long_side_; }
   /// True if d lies inside the circumcircle of a positive triangle. Exact for square samples; otherwise false if
-  /// rounding leaves doubt.
+  /// rounding makes it doubtful.
   bool is_in_circle(const std::array<Point, 3>& corners, Point d) const;
 
  private:
   std::array<double, 4> to_plan_, to_lattice_;  ///< row by row
   double short_side_, long_side_;
-  bool is_similar_;  ///< similarity: circles of the lattice remain circles
+  bool is_similar_;  ///< circles of the lattice remain circles
 };
 
 /// Flips towards Delaunay edges in that frame.
@@ -46,7 +47,7 @@ class PlanDelaunay final : public FlipRule {
 /// Flips free edges until all are Delaunay.
 void restore_delaunay(Triangulation& tin, PlanDelaunay& rule);
 
-/// sin² and cos² of an angle of 0 … 90 degrees, by series: C libraries differ in the last bit.
+/// sin² and cos² of an angle of 0 … 90 degrees, by series, since C libraries differ in the last bit.
 struct SquaredAngle {
   double sine, cosine;
 };

@@ -8,16 +8,16 @@
 
 namespace scarp {
 
-/// True if the angle between two vectors is less than one of 0 … 90 degrees with this squared cosine. `squares`:
+/// True if the angle between two vectors is less than one of 0 … 90 degrees with this squared cosine. `squares`: the
 /// product of the vectors' squared lengths.
 inline bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
-/// cos² of 45 degrees: corners between walls are acute if sharper, those of nodata outlines never.
+/// cos² of 45 degrees: sharper corners between walls are acute. Corners of nodata outlines never are.
 inline constexpr double kAcute = 0.5;
 
 class PlanShapes {
  public:
-  /// Borrows both. `cosine2`: squared cosine of the smallest allowed angle.
+  /// Borrows `tin` and `metric`. `cosine2`: squared cosine of the smallest allowed angle.
   PlanShapes(const Triangulation& tin, const PlanMetric& metric, double cosine2)
       : tin_(tin), metric_(metric), cosine2_(cosine2) {}
 
@@ -27,7 +27,7 @@ class PlanShapes {
   HalfEdge shortest(Triangle t) const {
     return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
   }
-  /// True if nothing may cross the edge.
+  /// True if no edge may cross this edge.
   bool is_wall(HalfEdge h) const {
     const HalfEdge g = tin_.twin(h);
     return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);

@@ -9,7 +9,8 @@
 
 namespace scarp {
 
-/// New vertices between points get the height of the surface there, as float32: the bound then needs few others.
+/// New vertices between points have the height of the surface there, as float32, so that the bound needs few other
+/// vertices.
 class PointBench final : public ShapeBench {
  public:
   /// The arguments are those of ScatteredRefinement.

@@ -85,7 +85,7 @@ VertexLattice RasterBench::lattice(bool all_may_go) const {
   return lattice;
 }
 
-/// The raster's height; in level triangles their height, so that water is flat up to its shore.
+/// The raster's height, but in a level triangle the triangle's height, so that water is flat up to its shore.
 float RasterBench::height_between(Point p, const Triangulation::Location& location) const {
   const bool is_on_edge = location.kind == Triangulation::Location::Kind::kOnEdge;
   const HalfEdge across = is_on_edge ? tin_.twin(location.edge) : location.edge;
@@ -97,7 +97,7 @@ float RasterBench::height_between(Point p, const Triangulation::Location& locati
   return static_cast<float>(height_between_samples(samples_, p));
 }
 
-/// Keeps the height of the last vertex, so that its band is not read again.
+/// Stores the height of the last vertex, so that its band is not read again.
 void RasterBench::remember_height() {
   if (!rows_) return;
   const Point p = tin_.point(static_cast<Vertex>(tin_.vertex_count() - 1));

@@ -15,8 +15,8 @@ namespace scarp {
 
 class RasterBench final : public ShapeBench {
  public:
-  /// Scales `tin` to kLatticeSteps, and restores its Delaunay edges. All arguments stay alive, and `tin` is changed by
-  /// no other code.
+  /// Scales `tin` to kLatticeSteps, and restores its Delaunay edges. All arguments stay alive, and no other code
+  /// changes `tin`.
   RasterBench(const Raster& raster, Triangulation& tin, const VertexLattice& lattice, const ShapeTask& task,
               const Bands& bands, PlanDelaunay& delaunay);
 
@@ -33,7 +33,7 @@ class RasterBench final : public ShapeBench {
   void hold(std::size_t band) override;
   void scan(Triangle t) override { refinement_->scan({&t, 1}); }
 
-  /// The lattice of the vertices. Fixed are those that were, and all between samples unless `all_may_go`.
+  /// The lattice of the vertices. Fixed are vertices that were fixed, and all between samples unless `all_may_go`.
   VertexLattice lattice(bool all_may_go) const;
 
  private:
@@ -47,7 +47,7 @@ class RasterBench final : public ShapeBench {
   Triangulation& tin_;
   LatticeHeights heights_;
   LatticeMetric error_metric_;
-  std::vector<std::uint8_t> fixed_;  ///< the vertices fixed as given
+  std::vector<std::uint8_t> fixed_;  ///< the vertices that were fixed at the start
   std::optional<Refinement> refinement_;
 };
 

@@ -1,4 +1,4 @@
-// The surface whose shapes are refined: it knows samples, heights and the error, and refine_shapes() the plan.
+// The surface whose shapes are refined: it has samples, heights and the error, while refine_shapes() has the plan.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +24,13 @@ class ShapeBench {
   virtual bool insert(Point p, const Triangulation::Location& location) = 0;
   /// Inserts a vertex on an edge or next to it, with the height at this share of the way along the edge.
   virtual void insert_on_edge(Point p, HalfEdge h, double share) = 0;
-  /// Triangles around the vertex that was inserted last: all that this changed.
+  /// Triangles around the vertex that was inserted last, which are all that changed.
   virtual const std::vector<Triangle>& changed() const = 0;
   virtual std::uint64_t samples_scanned() const = 0;
   virtual std::uint64_t triangles_scanned() const = 0;
 
-  /// Streamed samples: whether they are read in bands; reading those around a band; finding the samples of a triangle
-  /// there that break their bound.
+  /// For streamed samples: true if they are read in bands; reads the samples around a band; finds the samples of a
+  /// triangle there that break their bound.
   virtual bool is_streamed() const { return false; }
   virtual void hold(std::size_t /*band*/) {}
   virtual void scan(Triangle /*t*/) {}

@@ -1,4 +1,4 @@
-// The queue of triangles that break shape goals.
+// The queue of triangles that violate shape goals.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace scarp {
 
-/// A fault. Order: too large triangles before too sharp ones, then larger excess, then shorter edges.
+/// A fault. Order: too large triangles before too sharp ones, then larger excess before smaller, then shorter edges
+/// before longer.
 struct ShapeFault {
   bool is_long = false;
   double key = 0;  ///< larger first
@@ -24,7 +25,7 @@ struct ShapeFault {
   }
 };
 
-/// A priority queue of faults. A triangle is added again whenever sizes fall.
+/// A priority queue of faults. A triangle is added again when sizes fall.
 class ShapeFaults {
  public:
   bool empty() const { return heap_.empty(); }
@@ -42,7 +43,7 @@ class ShapeFaults {
     return first;
   }
 
-  /// Keeps the first current fault of each triangle.
+  /// Removes all but the first current fault of each triangle.
   template <class Current>
   void clean(Current&& is_current) {
     heap_.erase(std::remove_if(heap_.begin(), heap_.end(), [&](const ShapeFault& fault) { return !is_current(fault); }),

@@ -1,4 +1,4 @@
-// A lower bound on the triangles that goals for the lengths of edges need.
+// A lower bound of the number of triangles that goals for edge lengths need.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace scarp {
 /// Upper bound of edge length / size.
 inline constexpr double kGradeFactor = 2;
 
-/// Lower bound of the triangles in the surface of `tin`: its area over that of equilateral triangles with the longest
-/// allowed edges. Sizes only fall from the given ones (null: without a grade). 0 if edges are unlimited or sizes grow
-/// too fast to estimate. Cost: O(triangles).
+/// Lower bound of the number of triangles in the surface of `tin`: its area over that of equilateral triangles with the
+/// longest allowed edges. Sizes only fall below the given ones (null: without a grade). 0 if edges are unlimited or
+/// sizes grow too fast for an estimate. Cost: O(triangles).
 double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
                        const SizeField* sizes);
 
-/// Fails with kInput if no mesh can have so many triangles, with kUsage if they do not fit in memory besides `work`
-/// bytes.
+/// Fails with kInput if no mesh can have that many triangles, and with kUsage if they do not fit in memory next to
+/// `work` bytes.
 Result<void> check_need(double triangles, const MemoryBudget& memory, std::uint64_t work);
 
 }  // namespace scarp

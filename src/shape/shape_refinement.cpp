@@ -37,7 +37,7 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 
 class ShapeRefiner {
  public:
-  /// `last`: the corner of the lattice's rectangle. `spacing`: between samples.
+  /// `last`: the last corner of the lattice's rectangle. `spacing`: distance of samples.
   ShapeRefiner(ShapeBench& bench, Triangulation& tin, const ShapeTask& task, const PlanMetric& metric,
                const Bands& bands, Point last, double spacing)
       : bench_(bench),
@@ -82,7 +82,7 @@ class ShapeRefiner {
     return work_off();
   }
 
-  /// Scans all triangles the first time, later only bad ones.
+  /// Scans all triangles in the first sweep, and only bad triangles later.
   Result<void> sweep_bands() {
     const bool is_first = waiting_.empty();
     waiting_.assign(bands_.count(), {});
@@ -134,7 +134,7 @@ class ShapeRefiner {
   double square(HalfEdge h) const { return shapes_.square(h); }
   HalfEdge shortest(Triangle t) const { return shapes_.shortest(t); }
   bool is_wall(HalfEdge h) const { return shapes_.is_wall(h); }
-  /// The row of samples of its centre.
+  /// The row of samples at the triangle's centre.
   std::int32_t row_of(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
@@ -187,7 +187,7 @@ class ShapeRefiner {
   }
 
   /// Inserts a vertex towards the triangle's circumcentre, at most `reach` from its shortest edge and at least `least`
-  /// from all other vertices. False if nothing was inserted.
+  /// from all other vertices. False if none was inserted.
   bool insert_near(Triangle t, double reach, double least) {
     const HalfEdge h = shortest(t);
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
@@ -205,7 +205,7 @@ class ShapeRefiner {
     return insert_free(t, from, p, least);
   }
 
-  /// A point on the lattice and in the rectangle; on coarse steps if `radius`, in samples, is large.
+  /// A point on the lattice and in the rectangle, on coarse steps if `radius`, in samples, is large.
   Point lattice_point_near(const Vector& from, const Vector& wanted, double radius) const {
     const Vector far{double(last_.x), double(last_.y)};
     double share = 1;
@@ -222,7 +222,7 @@ class ShapeRefiner {
     return {snap(0), snap(1)};
   }
 
-  /// The triangle that contains p, seen from `from` in t, or the wall that hides it.
+  /// The triangle that contains p, or the wall that hides p from `from` in t.
   struct Sight {
     Triangle triangle = kNone;
     HalfEdge wall = kNone;
@@ -239,7 +239,7 @@ class ShapeRefiner {
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         if (h == entered || orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))), p) >= 0)
           continue;
-        // If p lies beyond two edges, the segment leaves through one of them: left or right of their common corner.
+        // If p is beyond two edges, the segment crosses one of them, left or right of their common corner.
         if (exit == kNone) {
           exit = h;
         } else if (Triangulation::next(exit) == h) {
@@ -256,7 +256,7 @@ class ShapeRefiner {
     return {};  // lost by rounding
   }
 
-  /// The triangles that inserting p would remove; and the walls around them whose diametral circles contain p, longest
+  /// The triangles that inserting p would remove, and the walls around them whose diametral circles contain p, longest
   /// first.
   struct Cavity {
     double nearest2 = std::numeric_limits<double>::infinity();
@@ -315,7 +315,7 @@ class ShapeRefiner {
     return p && insert_in_surface(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
-  /// The lattice point nearest to one on an edge with two sides, such that all four triangles are positive.
+  /// The lattice point nearest to `wanted` on an edge with two sides such that all four triangles are positive.
   std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
                 c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
@@ -335,14 +335,14 @@ class ShapeRefiner {
     return best;
   }
 
-  /// Halves a wall approximately if both halves have the least length. False if nothing was inserted.
+  /// Halves a wall approximately if both halves have at least the least length. False if no vertex was inserted.
   bool split_wall(HalfEdge h, double least) {
     if (tin_.is_outside(h / 3)) h = tin_.twin(h);
     if (square(h) < 4 * least * least) return false;
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
-    // The outline of the valid data must not move. Along a cutline few lattice points lie exactly on the edge.
+    // The outline of the valid data must not move. Along a cutline, few lattice points are exactly on the edge.
     std::optional<Point> p;
     if (!is_line(h)) p = on_outline(a, b, share);
     const bool bends = !p && tin_.twin(h) != kNone;
@@ -360,8 +360,8 @@ class ShapeRefiner {
     return true;
   }
 
-  /// The lattice point beside() a line that contains the edge. Next to existing vertices on the line few lattice points
-  /// are possible: returns the one nearest to the wanted share, at most `leeway` from it.
+  /// The lattice point beside() a line that contains the edge. Few lattice points are possible next to existing
+  /// vertices on the line: returns the one nearest to the wanted share, at most `leeway` from it.
   std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
     constexpr int kTries = 512;
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
@@ -372,7 +372,7 @@ class ShapeRefiner {
     return std::nullopt;
   }
 
-  /// One half; from an acute corner, the share that makes the length from there a power of two.
+  /// One half; at an acute corner, the share that makes the length from the corner a power of two.
   double share_of_split(HalfEdge h) const {
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const bool begins = is_acute(from, to), ends = is_acute(to, from);
@@ -413,7 +413,7 @@ class ShapeRefiner {
     const Point unit{(b.x - a.x) / units, (b.y - a.y) / units};
     std::int32_t step = 1;
     while (step < kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
-    // Multiples of the step count from the raster's corner, as for other lattice points.
+    // Multiples of the step are counted from the raster's corner, as for other lattice points.
     const std::int32_t begin = unit.x != 0 ? a.x * (unit.x < 0 ? -1 : 1) : a.y * (unit.y < 0 ? -1 : 1);
     const double at = std::floor((begin + share * units) / step + 0.5) * step - begin;
     const auto k = static_cast<std::int32_t>(std::clamp(at, 1.0, units - 1.0));
@@ -451,7 +451,7 @@ class ShapeRefiner {
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
   std::size_t band_ = 0;                                       ///< current band
-  double share_ = 1;                                           ///< share of bands processed
+  double share_ = 1;                                           ///< fraction of bands processed
   std::vector<WaitingTriangles> waiting_;                      ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
   std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< by vertex that halves a line: the line's ends
@@ -469,7 +469,8 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   ShapeRule rule;
   rule.by_angle = true;
   rule.aspect = height / width;
-  // Without a smallest angle any triangle with an area is valid, except in simulations, which request a shortest edge.
+  // Without a smallest angle, any triangle with an area is valid, unless a shortest edge is requested, as for
+  // simulations.
   constexpr double kUsualAngle = 5;
   const double angle = goals.min_edge && goals.min_angle == 0 ? kUsualAngle : goals.min_angle;
   rule.floor = std::max(squares_of(angle + kShapeSlack).sine, std::numeric_limits<double>::min());

@@ -1,22 +1,22 @@
 // Triangles for simulation: Delaunay refinement on the lattice between samples, together with the error bound.
 //
-// A triangle with too small an angle is given a vertex near its circumcentre: first the off-centre (A. Üngör, 2004),
-// which makes the angle over its shortest edge just as requested, else the circumcentre. If that lies beyond an outline
-// or a line, or in the diametral circle of one of their edges, the edge is halved instead (J. Ruppert, "A Delaunay
-// refinement algorithm for quality 2-dimensional mesh generation", 1995). At corners of less than 45 degrees it is
-// split at a power of two from the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh
-// generation", 2002): both sides get edges of the same lengths. A triangle that is too large gets its circumcentre, or
-// else its longest edge is halved.
+// In a triangle with too small an angle, a vertex is inserted near the circumcentre: first at the off-centre (A. Üngör,
+// 2004), which makes the angle over the shortest edge just as requested, else at the circumcentre. If the point is
+// beyond an outline or a line, or in the diametral circle of one of their edges, the edge is halved instead (J.
+// Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation", 1995). At a corner of less than
+// 45 degrees, the edge is split at a power of two from the corner (J. R. Shewchuk, "Delaunay refinement algorithms for
+// triangular mesh generation", 2002), so that both sides have edges of the same lengths. In a triangle that is too
+// large, the circumcentre is inserted, or else the longest edge is halved.
 //
 // Differences: edges with vertices in their circle are split only if a bad triangle requires it. Every vertex is a
 // lattice point, on a sample if samples are fine enough. After each step, samples that break the bound are inserted,
 // worst first. Refinement ends for any goal: vertices added for angles stay 1/32 of a sample from all others, edges are
-// split for size only while they are longer than allowed, and samples are finite.
+// split for size only while they are longer than allowed, and the number of samples is finite.
 //
 // If samples are streamed, the mesh is in memory, and bands of rows are processed from the top down. Bad triangles of a
-// band are treated while its samples and some around are held. Changed triangles elsewhere are refined to the bound at
-// once; their shapes are treated in their own bands, if necessary in the next sweep. Thus bands have no borders, and
-// the goals hold as in memory.
+// band are treated while its samples, and some around it, are held. Changed triangles elsewhere are refined to the
+// bound at once, but their shapes are treated in their own bands, if necessary in the next sweep. So bands have no
+// borders, and the goals hold as for samples in memory.
 #pragma once
 
 #include <array>
@@ -46,13 +46,13 @@ struct ShapeTask {
   double threshold = 0;                ///< threshold of errors
   std::span<const float> bounds = {};  ///< bounds of samples, like those of LatticeMetric
   bool all_may_go = false;             ///< later passes may remove or move vertices that are not samples
-  /// Receives the share of bands processed once (1 without bands), the number of vertices and the worst error; a
+  /// Receives the fraction of bands processed once (1 without bands), the number of vertices and the worst error; a
   /// failure ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
   /// Receives the least number of triangles once, at the start; a failure ends the run.
   std::function<Result<void>(double triangles)> foresee = {};
-  /// For a raster without samples: the borrowed field whose source has them, and how many rows are held at a time, at
-  /// least 4. Bounds of samples then come from windows, too; null: the threshold holds for all.
+  /// For a raster without samples: the borrowed field whose source has them, and the number of rows held at a time, at
+  /// least 4. Bounds of samples then also come from windows; null: the threshold applies to all.
   const HeightField* field = nullptr;
   const SourceBounds* source_bounds = nullptr;
   std::int32_t rows_at_once = 0;
@@ -65,23 +65,23 @@ struct ShapeWork {
 /// Makes `tin` Delaunay in the frame, except constrained edges. Adds vertices until every sample satisfies its bound
 /// and the goals hold as ShapeGoals describes. `lattice`: of the vertices; afterwards in kLatticeSteps. Fixed vertices
 /// remain so; vertices between samples become fixed unless vertices are free. Fails with kInput for too many triangles,
-/// and as progress and foresee do; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
+/// and like progress and foresee; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
 /// kLatticeSteps samples; an exact outline. Cost: expected O(log n) an insertion, without scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
-/// The same on scattered points: `domain` keeps its outline, with vertices between points as free ones. `bounds`: as
-/// for ScatteredRefinement. Fails with kInput for too many triangles, and with kCancelled. REQUIRES: points with
+/// The same on scattered points. `domain` keeps its outline; vertices between points are free. `bounds`: as for
+/// ScatteredRefinement. Fails with kInput for too many triangles, and with kCancelled. REQUIRES: points with
 /// PointSteps::kFloat32 or kFit.
 Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
                                 const ShapeGoals& goals, double threshold, std::span<const double> bounds,
                                 Reporter& reporter);
 
-/// Most bytes a vertex that refine_shapes() uses, the mesh included.
+/// Most bytes that refine_shapes() uses per vertex, including the mesh.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
-/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing where only
-/// insertion can preserve them: with a grade, and if rows and columns of the frame are not perpendicular.
+/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing if only
+/// insertion can preserve them: with a grade, or if rows and columns of the frame are not perpendicular.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice);
 
@@ -94,7 +94,7 @@ struct ShapeLosses {
 /// `steps`: lattice steps per sample.
 ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Frame& frame, const ShapeGoals& goals);
 
-/// Shapes of a finished mesh. `losses`: of its triangulation.
+/// Shapes of a finished mesh. `losses`: those of its triangulation.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const ShapeLosses& losses);
 /// The same for points, on the lattice of `tin`.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Triangulation& tin,

@@ -48,7 +48,7 @@ ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Shape
   constexpr double kBin = 5;
   ShapeReport report;
   report.min_angle = 60;
-  std::vector<std::array<std::uint32_t, 2>> shorter;  // edges between two triangles occur twice
+  std::vector<std::array<std::uint32_t, 2>> shorter;  // an edge of two triangles occurs twice
   report.shortest_edge = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     std::array<std::array<double, 2>, 3> edges;  // each opposite a corner
@@ -76,7 +76,7 @@ ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Shape
   }
   std::sort(shorter.begin(), shorter.end());
   report.shorter = static_cast<std::uint64_t>(std::unique(shorter.begin(), shorter.end()) - shorter.begin());
-  // Rounded positions may change the counts.
+  // Rounding of positions may have changed the counts.
   report.forced = std::min(losses.forced, report.below);
   report.below_beside_lines = std::min(losses.beside_lines, report.below - report.forced);
   report.shorter_beside_lines = std::min(losses.short_edges, report.shorter);

@@ -26,7 +26,7 @@ void SizeField::take_lengths(Triangle t) {
   }
 }
 
-// Computes the least fixed point, independent of the order; first in, first out needs few repetitions.
+// Computes the least fixed point, which is independent of the order; a first-in, first-out queue needs few repetitions.
 void SizeField::spread(const std::vector<HalfEdge>& out, std::vector<Vertex>* fallen) {
   while (!queue_.empty()) {
     wave_.swap(queue_);
@@ -57,7 +57,7 @@ void SizeField::update(const std::vector<Triangle>& changed, const std::vector<H
   states_.resize(tin_.vertex_count(), 0);
   const std::size_t before = fallen.size();
   for (const Triangle t : changed) take_lengths(t);
-  // New edges are new paths: vertices pass small sizes on even if theirs did not fall.
+  // New edges are new paths: along them, vertices pass small sizes on even if their own did not fall.
   for (const Triangle t : changed) {
     if (tin_.is_outside(t)) continue;
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {

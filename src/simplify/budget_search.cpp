@@ -17,37 +17,37 @@ namespace scarp {
 
 namespace {
 
-constexpr double kFull = 0.99;        // enough to stop at once
-constexpr double kNearlyFull = 0.97;  // enough after some patience
-constexpr double kNearFloor = 0.02;   // logarithm: so near a goal it is tried itself
+constexpr double kFull = 0.99;        // used share that ends the search
+constexpr double kNearlyFull = 0.97;  // the same after Pace::patience runs
+constexpr double kNearFloor = 0.02;   // logarithm: a number this near a goal is replaced by the goal
 constexpr double kLeast = std::numeric_limits<double>::min();
 
-/// So few triangles scatter from run to run by more than a percent; and where they jump, a mesh of a smaller budget may
-/// be the better one.
+/// Fewer triangles scatter from run to run by more than a percent. Where they jump, the mesh of a smaller budget may be
+/// better.
 constexpr std::size_t kFewTriangles = 500;
-constexpr double kJump = 0.9;  // less of the budget is used
+constexpr double kJump = 0.9;  // a jump uses less than this share of the budget
 
 /// How a search continues from its start.
 struct Pace {
-  double power;      ///< triangles ~ number^-power, where nothing is known yet
+  double power;      ///< triangles ~ number^-power, before runs determine it
   double farthest;   ///< step, as a ratio, while all meshes fit
   double far_below;  ///< ratio to the first mesh's number: below it an exact mesh is likely to fit
   double near;       ///< logarithm: nearer runs do not determine the power
-  double aim;        ///< share of the budget: below it by about what a run scatters
-  double closed;     ///< logarithm of the ratio of two numbers on both sides of the budget, which end the search
-  int patience;      ///< runs before nearly full will do
+  double aim;        ///< share of the budget: below 1 by about the scatter of a run
+  double closed;     ///< logarithm: nearer numbers on both sides of the budget end the search
+  int patience;      ///< runs before kNearlyFull suffices
   int most_runs;
 };
 constexpr Pace kFromInsertion{1.3, 2, 1.0 / 64, 0.03, 0.995, 0.002, 4, kMostRuns};
 constexpr Pace kFromFew{1.3, 2, 1.0 / 64, 0.03, 0.99, 0.005, 2, kMostRuns};
 constexpr Pace kFromLeastMesh{1, 32, 0x1p-20, 0.02, 0.995, 0.002, 5, kMostRunsFromLeast};
 
-/// A number, and the share of the budget that its mesh uses; logarithms.
+/// The logarithms of a number and of the share of the budget that its mesh uses.
 struct Sight {
   double number = 0, used = 0;
 };
 
-/// Minus the slope of the line through both, as far as it can be believed.
+/// Minus the slope of the line through both points, within a plausible range.
 double power_between(const Sight& a, const Sight& b, double usual) {
   const double run = a.number - b.number;
   return run == 0 ? usual : std::clamp((b.used - a.used) / run, 0.3, 20.0);
@@ -69,14 +69,14 @@ SimplifyOptions BudgetNumber::towards(double number) const {
 
 namespace {
 
-/// The smaller, the better.
+/// A key that is smaller for a better mesh.
 std::tuple<double, double, std::size_t> rank(const SimplifyOptions& options, const Simplified& of) {
   const double largest = of.judged_max_error, rmse = of.judged_rmse;
   return options.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
                                                     : std::tuple(rmse, largest, of.mesh.triangle_count());
 }
 
-/// Half of the budgets; its progress is that of a run that is nearly done.
+/// Halves the budgets and reports full progress.
 SimplifyOptions with_half_a_budget(SimplifyOptions options) {
   for (std::optional<std::uint64_t>* budget : {&options.goals.max_triangles, &options.goals.max_vertices}) {
     if (*budget) **budget = std::max<std::uint64_t>(**budget / 2, 1);
@@ -108,7 +108,7 @@ class BudgetSearch {
     const auto start = Clock::now();
     SCARP_RETURN_IF_ERROR(has_effort_ ? begin_without_effort() : begin_with_least_mesh());
     SCARP_RETURN_IF_ERROR(search());
-    // The first mesh may have been searched for, too.
+    // A search may have found the first mesh, too.
     if (!best_.passes.empty() && best_.passes.front().name == others_.name) {
       add_work(best_.passes.front(), others_);
       best_.seconds_refine -= best_.passes.front().seconds;
@@ -120,16 +120,16 @@ class BudgetSearch {
     return std::move(best_);
   }
 
-  /// Why meshes within the budget were not to be had, where memory was the reason.
+  /// The error for meshes within the budget that memory had no room for.
   const std::optional<Error>& no_room() const { return no_room_; }
 
-  /// True if triangles jump over the budget, so that much of it is unused.
+  /// True if the number of triangles jumps over the budget, so that much of it is unused.
   bool has_jumped() const {
     return fits_ && exceeds_ && highest() - exceeds_->number < pace_.closed && fits_->used < std::log(kJump);
   }
 
  private:
-  /// The refusal of a budget that is too small is that of this run.
+  /// This run refuses a budget that is too small.
   Result<void> begin_without_effort() {
     SimplifyOptions fast = options_;
     fast.goals.objective = Objective::kMax;  // the search's objective, not a run's
@@ -149,7 +149,7 @@ class BudgetSearch {
     first_ = best_.judged_max_error;
     if (best_.mesh.triangle_count() < kFewTriangles) pace_ = kFromFew;
     has_room_ = best_.stop == StopReason::kMaxError || best_.stop == StopReason::kExact || first_ <= floor_;
-    // No factor helps a sample whose tolerance is 0: what can be reached is seen from the least mesh on.
+    // No factor helps a sample whose tolerance is 0, so the search starts at the least mesh.
     if (std::isinf(first_)) pace_ = kFromLeastMesh, power_ = pace_.power;
     far_below_ = std::log(first_ * pace_.far_below);
     return {};
@@ -182,15 +182,15 @@ class BudgetSearch {
     return {};
   }
 
-  /// Then the best mesh so far is the result.
+  /// True if the best mesh so far is to be the result.
   bool is_time_up() {
     if (!has_effort_) return false;
     best_.is_cut_short = best_.is_cut_short || (options_.run.is_time_up && options_.run.is_time_up());
     return best_.is_cut_short;
   }
 
-  /// Fast effort has reached the floor: more effort makes that mesh smaller. Where rounding forbids the floor, the
-  /// number that was reached will do.
+  /// Fast effort has reached the floor, and more effort makes that mesh smaller. If rounding prevents the floor, the
+  /// reached number is used.
   Result<void> fit_into_room() {
     if (auto looked = look(floor_); !looked || fits_ || first_ <= floor_) return looked;
     return look(first_);
@@ -202,7 +202,7 @@ class BudgetSearch {
            (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < pace_.closed);
   }
 
-  /// Refinement alone shows how triangles grow as the bounds fall, and about what share of them effort keeps.
+  /// Finds by refinement how the number of triangles grows as the bounds fall.
   Result<double> guess_by_refinement() {
     Sight last{highest(), expected_after(best_)};
     double step = (last.used - std::log(pace_.aim)) / power_;
@@ -230,8 +230,8 @@ class BudgetSearch {
     return expected_after(*made);
   }
 
-  /// The share of a refined mesh that effort is expected to keep: the more, the nearer its triangles come to the full
-  /// grid's. Lines through measured triangles.
+  /// The share of the budget that effort is expected to use: the denser the refined mesh, the more of its triangles
+  /// remain. The lines fit measured triangles.
   double expected_after(const Simplified& refined) const {
     const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
@@ -248,8 +248,8 @@ class BudgetSearch {
     return number <= (floor_ > 0 ? std::log(floor_) + kNearFloor : far_below_);
   }
 
-  /// The next number: along the power that was seen last while all runs lie on one side of the budget, else between
-  /// those that fit and those that do not.
+  /// The next number: by the last power if all runs are on one side of the budget, else between runs that fit and runs
+  /// that do not.
   double guess() const {
     const Sight& known = fits_ ? *fits_ : *exceeds_;
     double number = known.number + (known.used - std::log(pace_.aim)) / power_;
@@ -258,7 +258,7 @@ class BudgetSearch {
       return is_near_floor(number) ? floor_ : std::exp(number);
     }
     const double width = highest() - exceeds_->number;
-    constexpr int kTrusted = 3;  // runs in vain: a power misleads where outlines alone nearly use up the budget
+    constexpr int kTrusted = 3;  // vain runs: a power misleads if outlines nearly use up the budget
     if (!std::isfinite(exceeds_->used) || (!fits_ && stays_ > kTrusted)) {
       number = highest() - width / 2;
     } else if (fits_) {
@@ -267,8 +267,8 @@ class BudgetSearch {
     return std::exp(std::clamp(number, exceeds_->number + width / 20, highest() - width / 20));
   }
 
-  /// The point where the line between both sides meets the aim; by the Illinois rule an end that stays weighs less and
-  /// less, so that steep counts, too, are closed in from both sides. REQUIRES: fits_, exceeds_, finite.
+  /// The point where the line between both sides meets the aim. By the Illinois rule, an end that stays weighs less and
+  /// less, so that both sides approach the aim even for steep counts. REQUIRES: fits_, exceeds_, finite.
   double cross_aim() const {
     const double weight = std::pow(0.5, std::max(0, stays_ - 1));
     double below = fits_->used - std::log(pace_.aim), above = exceeds_->used - std::log(pace_.aim);
@@ -277,7 +277,7 @@ class BudgetSearch {
     return (exceeds_->number * -below + fits_->number * above) / (above - below);
   }
 
-  /// A run with the whole effort. Keeps the better mesh.
+  /// Makes a run with the whole effort and keeps the better mesh.
   Result<void> look(double number) {
     ++runs_;
     const Scale scale{.factor = number_.factor_of(number), .room = budget_, .refines_only = !has_effort_};
@@ -290,14 +290,14 @@ class BudgetSearch {
       see(exceeds_, Sight{number > 0 ? std::log(number) : nothing, std::log(used)});
       return {};
     }
-    // A mesh is the same for all numbers down to what it reaches, or nearly so.
+    // The mesh is nearly the same for all numbers down to the one that it reaches.
     const double reached = std::min(number, made->judged_max_error);
     // Effort may find a smaller mesh for the floor itself.
     is_at_floor_ = number == floor_ || (!has_effort_ && reached <= floor_);
     see(fits_, Sight{std::log(std::max(reached, kLeast)), std::log(used)});
     end_by(*made);
-    // Lines that follow the floor may need more than those of the number that was found to reach it; and where it is
-    // but a cap, a mesh of fewer triangles may have the larger squared error.
+    // Lines at the floor may need more vertices than lines at the number that reached it. If the floor is only a cap, a
+    // mesh of fewer triangles may have a larger squared error.
     const bool is_worse = has_room_ && (options_.goals.objective == Objective::kMax
                                             ? made->mesh.triangle_count() > best_.mesh.triangle_count()
                                             : !is_better(*made));
@@ -310,7 +310,7 @@ class BudgetSearch {
     return {};
   }
 
-  /// Two runs on the same side of the budget determine the power, if they are not too near for that.
+  /// Two runs on the same side of the budget determine the power, unless they are too near.
   void see(std::optional<Sight>& side, const Sight& here) {
     if (side && std::isfinite(side->used - here.used) && std::abs(side->number - here.number) > pace_.near)
       power_ = power_between(*side, here, pace_.power);
@@ -344,11 +344,11 @@ class BudgetSearch {
     return made;
   }
 
-  /// A run that is possible for one number, and is not for another, only ends the search below it.
+  /// A run that fails only for some numbers ends the search below its number.
   void excuse(Error& error) {
     // Slivers of a cutline may vanish at one number and not at another.
     if (error.kind == ErrorKind::kInput) error.kind = ErrorKind::kPromise;
-    // A mesh that needs too much memory may be one that exceeds the budget, too.
+    // A mesh that needs too much memory may also exceed the budget.
     if (error.kind == ErrorKind::kUsage || error.kind == ErrorKind::kMemory) {
       no_room_ = error;
       error.kind = ErrorKind::kPromise;
@@ -368,16 +368,16 @@ class BudgetSearch {
   bool has_effort_;
   BudgetNumber number_;
   bool is_factor_;
-  double floor_;  // the least number that is of use
+  double floor_;  // the least useful number
   Pace pace_;
   double power_;
   Simplified best_;
-  double first_ = 0;          // error of the mesh with which the search begins
+  double first_ = 0;          // error of the first mesh
   double far_below_ = 0;      // a logarithm
-  bool has_room_ = false;     // true if that mesh is at the floor
-  int runs_ = 0, stays_ = 0;  // but the first; of them the last, on one side of the budget
+  bool has_room_ = false;     // the first mesh is at the floor
+  int runs_ = 0, stays_ = 0;  // runs after the first mesh; the last ones on one side of the budget
   bool last_fits_ = false, is_at_floor_ = false;
-  std::optional<Sight> fits_, exceeds_;  // the least number that fits, the largest that does not
+  std::optional<Sight> fits_, exceeds_;  // the least number that fits, and the largest that does not
   bool has_mesh_ = false;
   std::optional<Error> no_room_;
   Pass others_{"search"};

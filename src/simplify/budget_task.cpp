@@ -47,7 +47,7 @@ double largest_error(const HeightField& field, const SimplifyOptions& options) {
   return 2 * (high - low);
 }
 
-/// Range of tolerances, or of weights: of all samples, nodata ones included.
+/// Range of the tolerances or weights of all samples, including nodata.
 struct ToleranceRange {
   double least = kInfinity;  ///< least of those above 0
   double largest = 0;        ///< largest of those that are finite
@@ -78,7 +78,8 @@ ToleranceRange range_of(std::span<const float> values, const SampleSource* sourc
   return range;
 }
 
-/// A max error, or a factor of all tolerances, at which no sample needs a vertex for its bound, unless that is 0.
+/// A max error, or a factor of all tolerances, at which no sample needs a vertex for its bound, except samples with
+/// bound 0.
 double largest_number(const Recipe& recipe, const ToleranceRange& tolerances) {
   const HeightField& field = recipe.field;
   const SimplifyOptions& options = recipe.options;
@@ -92,7 +93,7 @@ double largest_number(const Recipe& recipe, const ToleranceRange& tolerances) {
   return error * range_of(asked.weights, asked.weights_source, field).largest;
 }
 
-/// The subject of a refusal: the mesh that every budget must have room for.
+/// The subject of a refusal: the mesh for which every budget must have room.
 std::string name_least(const Recipe& recipe, bool has_zeros) {
   const char* zeros = has_zeros ? " and the samples with a tolerance of 0" : "";
   if (recipe.has_lines) return std::string("the lines and the outline of the valid data") + zeros + " alone need";

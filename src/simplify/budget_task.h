@@ -1,4 +1,4 @@
-// The budget search on a field: its runs, and where it begins.
+// The budget search on a field: its runs and its start.
 #pragma once
 
 #include "pieces/recipe.h"
@@ -6,8 +6,8 @@
 
 namespace scarp {
 
-/// The recipe stays alive. Reads a source of samples, and one of tolerances, at most once, now or when the search
-/// begins; throws SourceFailure.
+/// The recipe stays alive. Reads a source of samples, and a source of tolerances, at most once, now or when the search
+/// begins. Throws SourceFailure.
 BudgetTask make_budget_task(const Recipe& recipe);
 
 }  // namespace scarp

@@ -200,9 +200,9 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
   if (!refinement_)
     refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
                         Refinement::Start::kClean);
-  // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
+  // Rounding of a vertex among them breaks the bound, and no other vertex can mend that.
   const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
-  // If a fold is to go, any sample may be named.
+  // To remove a fold, any sample may be named.
   const auto is_useless = [&](const Offender& o) {
     return std::isinf(o.error) && (!raster_.is_valid({o.col, o.row}) || is_vertex(o));
   };

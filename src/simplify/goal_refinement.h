@@ -1,5 +1,5 @@
-// Refinement of one piece until a goal is reached: by the seeds, the samples that importance asks for, and those that a
-// proof names.
+// Refinement of one piece until a goal is reached: inserts the seeds, the samples that importance selects, and those
+// that a proof names.
 #pragma once
 
 #include <cstdint>
@@ -21,63 +21,63 @@
 
 namespace scarp {
 
-/// Owns the piece, all of the raster, and what is known of its samples while they are inserted.
+/// Owns the piece, which covers the raster, and during insertion the errors of its samples.
 class GoalRefinement {
  public:
   /// `border`: the vertices of a locked border (locked_border.h); EMPTY: none. All outlive it.
   GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion, std::span<const Point> border,
                  Reporter& reporter);
 
-  /// The piece is the domain with its seeds: the border and the points that the features name. Fails as build_domain().
+  /// Makes the piece from the domain and its seeds: the border and the points of the features. Fails like
+  /// build_domain().
   Result<void> start(Simplified& result);
-  /// The piece is a mesh of the domain that others made.
+  /// Makes the piece from an existing mesh of the domain.
   void start_with(DomainMesh domain);
-  /// Inserts from the seeds on, by the strategy. Fails if not even the seeds fit into a budget, with kInput for too
-  /// many triangles, with kCancelled, and where the memory is too small.
+  /// Inserts from the seeds on, by the strategy. Fails if even the seeds exceed a budget, with kInput for too many
+  /// triangles, with kCancelled, and for too little memory.
   Result<void> run(Simplified& result);
-  /// Inserts the samples missing from a mesh of other passes, worst first. Fails as run().
+  /// Inserts the samples that a mesh of other passes lacks, worst first. Fails like run().
   Result<void> run_on(Simplified& result);
-  /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
-  /// false if that cannot help. Fails as run().
+  /// Inserts the samples that break the bound according to the judge, within the budgets, and continues refinement.
+  /// Returns false if that cannot help. Fails like run().
   Result<bool> mend(std::vector<Offender> offenders, Simplified& result);
 
-  /// Gives back what is known of the samples: other passes may change the piece.
+  /// Releases the data of the samples, so that other passes may change the piece.
   void forget() { refinement_.reset(); }
-  /// Gives back the piece too.
+  /// Also releases the piece.
   void release();
   bool has_piece() const { return piece_.has_value(); }
   Piece& piece() { return *piece_; }
   const Piece& piece() const { return *piece_; }
 
-  /// Every sample of the rectangle is a height.
+  /// True if every sample of the rectangle is a height.
   bool is_whole() const { return is_whole_; }
-  /// Corners of the rectangle that are no vertex of the domain.
+  /// Number of corners of the rectangle that are no vertex of the domain.
   std::uint32_t unused() const { return unused_; }
   std::uint64_t vertices() const { return piece_->tin.vertex_count() - unused_; }
-  /// No pass has a reason to touch a locked border; this is the proof that none did.
+  /// Proves that no pass has changed a locked border.
   Result<void> check_border() const;
 
  private:
   void take(DomainMesh domain);
   void note_sides();
-  /// Samples outside the domain cannot become vertices.
+  /// Inserts the points of the features, except those outside the domain.
   void insert_points();
   void insert_seed(Point p);
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
   std::optional<StopReason> reached() const;
-  /// Every way of refinement is steps of one or more insertions, with a check of goals, progress and the best prefix
-  /// after each.
+  /// Refines in steps of one or more insertions, with a check of goals, progress and the best prefix after each.
   Result<void> refine(StopReason& stop);
-  /// Returns the budget that stopped it. REQUIRES: !reached().
+  /// Returns the budget that stopped the step. REQUIRES: !reached().
   std::optional<StopReason> take_step();
   std::optional<StopReason> insert_batch();
   std::optional<StopReason> insert_ranked();
   double fraction(double first_error) const;
-  /// True where the best prefix is searched for.
+  /// True while the best prefix is searched for.
   bool in_last_stretch() const;
-  /// Max error is not monotone: a budget may stop on a spike. GoalRefinement is deterministic, so an earlier mesh is
-  /// had by inserting the same points again, without reading a sample.
+  /// The max error is not monotone, so a budget may stop at a peak. GoalRefinement is deterministic, so the same
+  /// points, inserted again, give an earlier mesh without reading a sample.
   void take_best_prefix();
   void finish_edges(Simplified& result);
 
@@ -88,7 +88,7 @@ class GoalRefinement {
   std::span<const Point> border_;
   Reporter& reporter_;
   Budget budget_;
-  std::vector<Point> on_sides_;  // there when refinement begins, where a border is locked
+  std::vector<Point> on_sides_;  // vertices of a locked border when refinement begins
   std::optional<Piece> piece_;
   bool is_whole_ = true;
   std::uint32_t unused_ = 0;

@@ -1,5 +1,4 @@
-// When the lines of a run are made ready: before it, or in parallel to the refinement of tiles if that needs none of
-// them.
+// Prepares the lines of a run: before it, or in parallel to the refinement of tiles that needs no lines.
 #pragma once
 
 #include "lines/field_lines.h"
@@ -11,13 +10,13 @@ namespace scarp {
 
 class LineWork {
  public:
-  /// Lines and cutline of the recipe, which stays alive; `tolerance` as for prepare_lines().
+  /// Uses lines and cutline of the recipe, which stays alive; `tolerance` as for prepare_lines().
   LineWork(const Recipe& recipe, double tolerance) : recipe_(recipe), tolerance_(tolerance) {}
 
-  /// Lines change no sample and cut nothing, all are in reach of the lattice, and there is a second thread: whoever
-  /// refines tiles need not wait for them.
+  /// True if the refinement of tiles need not wait for the lines: they change no sample and cut nothing, all are in
+  /// reach of the lattice, and there is a second thread.
   bool may_wait() const;
-  /// prepare_lines(), the first time only; fails as that does.
+  /// Calls prepare_lines() the first time only, and fails like it.
   Result<void> prepare();
   bool is_prepared() const { return is_prepared_; }
 

@@ -1,6 +1,6 @@
-// The main job as a list of passes. Milestones: after the seeds, or in each tile after `start_tile`, the outline is
-// fixed; after the refinement, or after the tiles, no vertex is added, after `remove_vertices` none removed; after
-// `freeze` nothing moves; what `prove` has seen is what is returned.
+// The main job as a list of passes. Milestones: the outline is fixed after the seeds, or in each tile after
+// `start_tile`. No vertex is added after the refinement or the tiles, none is removed after `remove_vertices`, and none
+// moves after `freeze`. The returned mesh is the one that `prove` has judged.
 #include "simplify/mesh_passes.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ namespace {
 
 static_assert(kMostFitFields > kMaxChannels);
 
-/// The norm that fitting keeps; nothing if unweighted heights alone decide. The criterion stays alive.
+/// The norm that fitting bounds; nothing if only unweighted heights matter. The criterion stays alive.
 std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
   const std::vector<MetricField> fields = criterion.metric_fields();
   if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
@@ -62,7 +62,7 @@ class MeshPasses {
         reporter_(options_.run.progress),
         refinement_(recipe, raster, criterion, border, reporter_) {}
 
-  /// In the dominant order where `tiled` is given, else greedily.
+  /// Runs from the tiles of the dominant order if `tiled` is given, else greedily.
   Result<Simplified> execute(std::optional<Tiled> tiled) {
     const auto start = Clock::now();
     Simplified result;
@@ -77,8 +77,8 @@ class MeshPasses {
     const auto losses =
         shape.any() ? count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps, field_.frame, shape)
                     : ShapeLosses{};
-    // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
-    // proof.
+    // If all vertices are exactly on their samples, the bound holds by construction, and no vertex is inserted after
+    // the proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !refinement_.piece().lattice.are_samples();
     if (is_final) refinement_.forget();
     freeze_into(result, is_final);
@@ -101,8 +101,8 @@ class MeshPasses {
     return refinement_.run(result);
   }
 
-  /// The tiles' mesh becomes one. Samples with bounds below the largest are refined; so are, in curved frames, samples
-  /// that break where its border is fitted to the samples.
+  /// Joins the tiles' meshes. Refines samples with bounds below the largest and, in curved frames, samples whose bound
+  /// breaks where the border is fitted to the samples.
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     refinement_.start_with(std::move(tiled.domain));
@@ -110,7 +110,7 @@ class MeshPasses {
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
     if (recipe_.finishes_strips) {
-      // Later whole-mesh passes have no raster, so heights are stored per vertex.
+      // Later passes over the whole mesh have no raster, so heights are stored per vertex.
       if (options_.quality.shape.any() && tiled.steps == 1) piece.tin.scale(tiled.steps = kLatticeSteps);
       piece.lattice = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
                        std::move(tiled.fixed)};
@@ -131,10 +131,10 @@ class MeshPasses {
     return refinement_.run_on(result);
   }
 
-  /// True if there are walls or ridges: refinement with them saves vertices that it would insert without them.
+  /// True if there are walls or ridges: lines that are in the mesh before refinement save vertices.
   bool inserts_first() const { return lines_ != nullptr && lines_->is_inserted_first; }
 
-  /// Points stay, whatever removal could do without.
+  /// Fixes points, so that removal keeps them.
   void fix_points() {
     Piece& piece = refinement_.piece();
     std::vector<Point> asked;
@@ -151,7 +151,7 @@ class MeshPasses {
   /// See Scale::room.
   bool is_useless(const MeshSize& size) const { return recipe_.scale.room && recipe_.scale.room->used(size) > 1; }
 
-  /// Lines become chains of edges; what they break is refined around them.
+  /// Makes the lines chains of edges, and refines around them where they break the bound.
   Result<void> insert_lines(Simplified& result) {
     if (lines_ == nullptr) return {};
     const auto start = Clock::now();
@@ -182,7 +182,7 @@ class MeshPasses {
     return remove_vertices(result);
   }
 
-  /// Vertices that the bound can do without go.
+  /// Removes vertices that the bound does not need.
   Result<void> remove_vertices(Simplified& result) {
     if (!recipe_.fits || (recipe_.fits_strips && !options_.quality.shape.any())) return {};
     const auto start = Clock::now();
@@ -220,7 +220,7 @@ class MeshPasses {
     return {};
   }
 
-  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  /// Adds vertices for angles and sizes of triangles, and those that the bound then needs.
   Result<void> add_for_shapes(Simplified& result) {
     if (!options_.quality.shape.any()) return {};
     const auto start = Clock::now();
@@ -249,13 +249,13 @@ class MeshPasses {
     return {};
   }
 
-  /// After fitting.
+  /// Records the kind of the vertices after fitting.
   void note_vertices(Simplified& result) {
     exact_ = recipe_.is_exact;
     if (recipe_.frees_vertices && !refinement_.piece().lattice.are_samples()) result.vertices = Vertices::kFree;
   }
 
-  /// The number of threads that the memory has room for, each with a window of samples.
+  /// The number of threads for which the memory has room, each with a window of samples.
   int fit_threads(std::uint64_t window) const {
     const int threads = thread_count(options_.run.threads);
     if (!recipe_.memory.is_limited()) return threads;
@@ -265,7 +265,7 @@ class MeshPasses {
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
-  /// The field as refinement sees it; in space, where that is another, as it was given.
+  /// The field as used by refinement; in space, the field as given.
   HeightField clean_field() const {
     HeightField clean = field_;
     if (!recipe_.is_streamed && !field_.frame.space) clean.samples = raster_.samples;
@@ -279,7 +279,7 @@ class MeshPasses {
     result.seconds_refine += seconds_since(start);
   }
 
-  /// The last time the workbench's memory is given back on the way, and the mesh is put in order unless it is useless.
+  /// Makes the mesh. The last call also releases the workbench's memory and sorts the mesh, unless the mesh is useless.
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
     if (!refinement_.is_whole() && !recipe_.has_lines)
@@ -307,8 +307,8 @@ class MeshPasses {
       if (has_more) at = frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
     }
     if (recipe_.height_step > 0) round_heights(result.mesh, recipe_.height_step);
-    // Normals are of the samples themselves: those of a locked border lie on its line here, as its channels do, and
-    // neighbours know them as they are.
+    // Normals are those of the samples as read: `clean` has the samples of a locked border on its line, which
+    // neighbours do not know.
     HeightField read = options_.domain.border.is_locked ? field_ : clean;
     read.channels = criterion_.channels();
     add_attributes(read, options_, at, result.mesh);
@@ -316,7 +316,7 @@ class MeshPasses {
     if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }
 
-  /// Counts it if the outline needs most of the mesh.
+  /// Counts the triangles of an outline with tolerance 1 if the outline needs most of the mesh.
   void count_looser_outline(Simplified& result) const {
     if (options_.domain.outline_tolerance > 0 || recipe_.is_streamed || result.outline_triangles == 0) return;
     if (2 * result.outline_triangles < result.mesh.triangle_count()) return;
@@ -324,8 +324,8 @@ class MeshPasses {
     if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
   }
 
-  /// Breaches that the first proof would find are searched for before the mesh is put in order and its topology judged,
-  /// which need longer. The proof handles faults that this cannot mend.
+  /// Searches for breaches that the first proof would find before the mesh is sorted and its topology judged, which
+  /// need longer. The proof handles faults that this cannot mend.
   Result<void> mend_ahead(Simplified& result) {
     const auto start = Clock::now();
     SCARP_TRY(const auto& found, prove(recipe_, criterion_, exact_, Look::kHeights, result));
@@ -350,7 +350,7 @@ class MeshPasses {
       result.seconds_measure += seconds_since(start);
       result.passes.push_back(pass_of("prove", seconds_since(start)));
       const bool is_sound = exact_ || result.measurement.is_sound();
-      // In space a fold goes where its longest edge is split.
+      // In space, a split of a fold's longest edge removes the fold.
       const bool may_unfold = field_.frame.space && result.measurement.down_facing > 0 && !proof.offenders.empty();
       if (!is_sound && !may_unfold)
         return fail(ErrorKind::kPromise,
@@ -382,10 +382,10 @@ class MeshPasses {
   const Request& options_;
   const Criterion& criterion_;
   const ConstraintGraph* lines_;
-  std::vector<float> heights_;  // heights of the domain's vertices, where the field has a source
+  std::vector<float> heights_;  // heights of the domain's vertices, if the field has a source
   bool exact_;                  // every vertex can lie exactly on its sample, or on the lattice of fitting
   Reporter reporter_;
-  GoalRefinement refinement_;  // its piece is given back as soon as nothing can need it any more
+  GoalRefinement refinement_;  // releases its piece after its last use
 };
 
 }  // namespace

@@ -9,14 +9,14 @@
 
 namespace scarp {
 
-/// A vertex of a finished mesh and its two triangles, kept in addition to the mesh at work.
+/// Bytes of a vertex and its two triangles of a finished mesh, in addition to the mesh of the run.
 inline constexpr std::uint64_t kMeshBytesPerVertex = 48;
 
 inline Pass pass_of(std::string_view name, double seconds, const Work& work = {}) {
   return {name, seconds, work.samples_scanned, work.triangles_scanned, work.passes};
 }
 
-/// Adds the work of a pass, or of all of a run, to that of `sum`.
+/// Adds the work of a pass, or of all passes of a run, to `sum`.
 inline void add_work(const Pass& pass, Pass& sum) {
   sum.samples_scanned += pass.samples_scanned;
   sum.triangles_scanned += pass.triangles_scanned;

@@ -42,7 +42,7 @@ struct Meeting {
   std::uint32_t point;
 };
 
-/// The boundary's own points: its corners, and the places where lines meet it, ring by ring.
+/// The boundary's own points, ring by ring: its corners, and the places where lines meet it.
 class BoundaryMaker {
  public:
   BoundaryMaker(std::span<const Line> rings, double tolerance, PointSet& points, DuplicatePolicy duplicates)
@@ -60,7 +60,7 @@ class BoundaryMaker {
   }
 
  private:
-  /// Vertices of lines on the boundary belong to both; at a corner they are the corner.
+  /// Vertices of lines on the boundary also belong to the boundary; a vertex at a corner is the corner.
   void find_on_boundary() {
     own_.resize(points_.size(), false);
     for (const PointLine& line : points_.lines) {
@@ -84,7 +84,7 @@ class BoundaryMaker {
 
   bool is_inside(std::uint32_t point) const { return own_[point] || edges_.holds(points_.x[point], points_.y[point]); }
 
-  /// Cuts lines where they leave the boundary, and adds points there.
+  /// Cuts lines where they cross the boundary, and adds points there.
   void cut_lines() {
     std::vector<PointLine> kept;
     for (const PointLine& line : points_.lines) {
@@ -112,14 +112,14 @@ class BoundaryMaker {
     points_.lines = std::move(kept);
   }
 
-  /// A little farther along a segment.
+  /// A place a little farther along a segment than `share`.
   Place place_after(std::uint32_t a, std::uint32_t b, double share) const {
     const double farther = share + (1 - share) * 1e-6;
     return {points_.x[a] + farther * (points_.x[b] - points_.x[a]),
             points_.y[a] + farther * (points_.y[b] - points_.y[a])};
   }
 
-  /// Crossings of a segment with the boundary, in order; each becomes a point of both.
+  /// Crossings of a segment with the boundary, in order. Each becomes a point of both.
   std::vector<Meeting> meetings_of(std::uint32_t a, std::uint32_t b) {
     std::vector<Meeting> found;
     const double ax = points_.x[a], ay = points_.y[a], bx = points_.x[b], by = points_.y[b];
@@ -146,7 +146,7 @@ class BoundaryMaker {
     return found;
   }
 
-  /// Drops the points beyond the boundary; returns how many.
+  /// Drops the points outside the boundary and returns their number.
   std::uint64_t drop_outside() {
     const std::size_t given = points_.size();
     const auto names =
@@ -208,7 +208,7 @@ class BoundaryMaker {
                               std::pair<std::uint32_t, std::uint32_t>(std::minmax({a, b})));
   }
 
-  /// Adds corners on the way from the last one, as many as the surface along it needs.
+  /// Adds the corners between the last one and `to` that the surface along the edge needs.
   void follow(const PointSurface& surface, const std::array<double, 3>& to, std::vector<std::uint32_t>& corners) {
     constexpr double kMostPlaces = 4096;
     const std::uint32_t last = corners.back();
@@ -251,7 +251,7 @@ class BoundaryMaker {
   DuplicatePolicy duplicates_;
   std::vector<Meeting> meetings_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> line_edges_;  // the lower point first, sorted
-  std::vector<bool> own_;                                            // by point: it is a meeting
+  std::vector<bool> own_;                                            // by point: true for a meeting
 };
 
 }  // namespace

@@ -19,9 +19,9 @@ namespace {
 constexpr double kUsualShape = 0.1;
 constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
 
-/// The points, with those that share the lattice point of another. A point with a smaller bound b than the threshold t
-/// is two samples, t − b above and below: errors of at most t at both are errors of at most b at the point. If nothing
-/// is left of b, the point is none; it is a vertex, or on an edge, and proof decides.
+/// The points, including those that share a lattice point. A point whose bound b is smaller than the threshold t
+/// becomes two samples, t − b above and below: errors of at most t at both mean an error of at most b at the point.
+/// Without any remaining b, the point is no sample but a vertex or on an edge, and the proof decides.
 class AllSamples {
  public:
   AllSamples(const SnappedPoints& points, const PointRecipe& recipe) : recipe_(recipe) {
@@ -74,7 +74,7 @@ VertexLattice make_lattice(const ScatteredDomain& domain, std::span<const double
   return lattice;
 }
 
-/// The domain of a fitted mesh: vertices at the place and height of a point are that point.
+/// Makes the domain of a fitted mesh. A vertex at the place and height of a point becomes that point.
 void rebuild(const SnappedPoints& points, std::span<const double> heights, Fitted fitted, ScatteredDomain& domain) {
   const Triangulation& tin = domain.tin = std::move(fitted.tin);
   std::vector<std::uint8_t> is_used(tin.vertex_count(), 0);

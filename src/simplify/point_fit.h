@@ -1,4 +1,4 @@
-// Fitting on scattered points: the mesh of refinement gets smaller (fit/fit.h) while every point keeps the bound.
+// Fitting on scattered points: reduces the mesh of refinement (fit/fit.h) while every point satisfies the bound.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct PointFit {
   bool is_cut_short = false;
 };
 
-/// Removes vertices, moves others where the effort does that, and brings the domain up to date. `fixed`: points whose
-/// vertices stay, sorted. `heights`: of points as vertices. Fails with kCancelled. REQUIRES: every point keeps
-/// recipe.aims.refinement; the lattice has kMaxFitSteps at most in what triangles reach over, or nothing is done there.
+/// Removes vertices, moves others if the effort does so, and updates the domain. `fixed`: sorted points whose vertices
+/// stay. `heights`: of points as vertices. Fails with kCancelled. REQUIRES: every point satisfies
+/// recipe.aims.refinement. Triangles wider than kMaxFitSteps of the lattice do not change.
 Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double> heights,
                             std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain);
 

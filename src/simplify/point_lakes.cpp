@@ -51,7 +51,7 @@ struct Polygon {
   }
 };
 
-/// An outer ring, and the holes that follow it.
+/// Polygons, each with an outer ring and the holes after it.
 std::vector<Polygon> polygons_of(std::span<const Line> rings) {
   std::vector<std::vector<const Line*>> groups;
   for (const Line& ring : rings) {
@@ -63,7 +63,7 @@ std::vector<Polygon> polygons_of(std::span<const Line> rings) {
   return polygons;
 }
 
-/// The heights at the vertices of a shore and some places between; empty if all lie beyond the points.
+/// The heights at the vertices of a shore and some places between them; empty if all are outside the points.
 std::vector<double> heights_along(const Polygon& polygon, const PointSurface& surface, double spacing,
                                   std::uint64_t& beyond) {
   constexpr double kMostPlaces = 4096;
@@ -87,7 +87,7 @@ std::vector<double> heights_along(const Polygon& polygon, const PointSurface& su
   return heights;
 }
 
-/// By polygon, the first of those that it meets at vertices, directly or by others.
+/// For each polygon, the first polygon that it meets at vertices, directly or through others.
 std::vector<std::size_t> groups_of(const std::vector<Polygon>& polygons) {
   std::vector<std::size_t> first(polygons.size());
   std::map<Place, std::size_t> at;
@@ -108,7 +108,7 @@ std::vector<std::size_t> groups_of(const std::vector<Polygon>& polygons) {
   return first;
 }
 
-/// Sets the levels: one for lakes that meet. NaN where no shore lies over the points.
+/// Sets the levels, one for all lakes that meet; NaN if no shore is within the points.
 void find_levels(const std::vector<Polygon>& polygons, const PointSurface& surface, double percentile,
                  std::vector<PointLake>& lakes) {
   const double spacing = surface.spacing();
@@ -124,12 +124,12 @@ void find_levels(const std::vector<Polygon>& polygons, const PointSurface& surfa
     if (of.empty()) continue;
     const auto rank = std::lround(percentile / 100 * static_cast<double>(of.size() - 1));
     std::nth_element(of.begin(), of.begin() + rank, of.end());
-    // Vertices between points have float32 heights, and are as high as the shore.
+    // Vertices between points have float32 heights, which must equal that of the shore.
     lakes[k].level = double{static_cast<float>(of[static_cast<std::size_t>(rank)])};
   }
 }
 
-/// By vertex, the normals of the triangles around it, each as long as twice the triangle's area; z > 0.
+/// For each vertex, the sum of the normals of its triangles, each as long as twice the triangle's area; z > 0.
 std::vector<std::array<double, 3>> sum_normals(const Mesh& mesh) {
   std::vector<std::array<double, 3>> sums(mesh.vertex_count(), {0, 0, 0});
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

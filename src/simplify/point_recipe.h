@@ -11,11 +11,11 @@
 
 namespace scarp {
 
-/// Fails with kUsage: no goal, a number out of its range, options that exclude each other.
+/// Fails with kUsage without a goal, and for a number out of range or options that exclude each other.
 Result<void> check_point_options(const PointSet& points, const PointOptions& options);
 
-/// The bounds on the way to a max error. Fitting reads heights as float32, whose rounding comes off the bound, as does
-/// a share for that of positions. Where nothing is left, there is no fitting.
+/// The bounds of passes towards a max error. Fitting reads heights as float32; their rounding and a share for that of
+/// positions are subtracted from the bound. If no bound remains, there is no fitting.
 struct PointAims {
   double refinement = 0, fit = 0;
 
@@ -37,9 +37,9 @@ struct PointRecipe {
   double largest;       ///< the largest magnitude of a height
   Effort effort;        ///< never kAuto
   EffortTraits traits;  ///< the work of that effort
-  PointAims aims;       ///< without a max error those of 0
+  PointAims aims;       ///< without a max error, those for 0
   bool removes;         ///< vertices are removed after refinement
-  bool searches;        ///< a budget is met by runs for several errors
+  bool searches;        ///< runs for several errors find the mesh of a budget
   bool frees_vertices;  ///< vertices may move off the points
   bool removes_last;    ///< after vertices for angles and edges, whose goals removal preserves
   PointSteps steps;     ///< lattice of the points

@@ -38,7 +38,7 @@ class PointRun {
         least_(task.least()),
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
-        // Vertices for shapes may lie a step from an edge that rounding moves by half a step.
+        // Vertices for shapes may be a step from an edge that rounding moves by half a step.
         is_on_lattice_(task.steps == PointSteps::kFloat32 || (goals().any() && !snapped_.is_exact)),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
@@ -77,15 +77,15 @@ class PointRun {
   MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
 
-  /// Towards the bound that fitting needs, or the bound itself.
+  /// Starts towards the bound that fitting needs, or the bound itself.
   void start_refinement() {
     if (!fits_) return restart_refinement();
     refinement_.emplace(snapped_, heights_, domain_, recipe_.aims.refinement, aims_);
   }
-  /// Towards the bound itself.
+  /// Restarts towards the bound itself.
   void restart_refinement() { refinement_.emplace(snapped_, heights_, domain_, bound_, bounds_); }
 
-  /// Makes the mesh smaller. Then the workbench of refinement is built anew, for the bound itself.
+  /// Reduces the mesh. Afterwards the workbench of refinement is rebuilt for the bound itself.
   Result<void> fit(Simplified& result) {
     result.effort = Effort::kFast;
     if (!fits_ || result.stop != StopReason::kMaxError) return {};
@@ -109,7 +109,7 @@ class PointRun {
     result.vertices = has_free ? Vertices::kFree : Vertices::kSamples;
   }
 
-  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  /// Adds vertices for angles and sizes of triangles, and those that the bound then needs.
   Result<void> shape(double threshold, Simplified& result) {
     if (!goals().any() || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
@@ -122,7 +122,7 @@ class PointRun {
     return {};
   }
 
-  /// Points that broke the bound after fitting, and vertices of lines, some of whose chords may not be edges; sorted.
+  /// Sorted: points that broke the bound after fitting, and vertices of lines, of which some chords may not be edges.
   std::vector<std::uint32_t> fixed_points() const {
     std::vector<std::uint32_t> fixed = mended_;
     for (const std::uint32_t point : domain_.point_of) {
@@ -168,8 +168,8 @@ class PointRun {
     return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
   }
 
-  /// Makes chains of edges of the lines, and gives up flat triangles. Each step may cost the other its end: chains
-  /// change triangles, and vertices change chains; but vertices only become more.
+  /// Makes the lines chains of edges, and removes flat triangles. Each step may undo the other: chains change
+  /// triangles, and new vertices change chains. But the number of vertices only grows.
   Result<void> settle_lines(StopReason& stop) {
     if (lines_.empty()) return {};
     for (;;) {
@@ -193,11 +193,11 @@ class PointRun {
     ++insertions_;
   }
 
-  /// True where the best prefix is searched for.
+  /// True while the best prefix is searched for.
   bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
-  /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same points
-  /// again.
+  /// The max error is not monotone, so a budget may stop at a peak. The same points, inserted again, give an earlier
+  /// mesh.
   void take_best_prefix() {
     if (fits_ || refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.point_of.size()) return;
     const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
@@ -239,7 +239,7 @@ class PointRun {
         mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
       mesh.positions.push_back(domain_.height(v, heights_));
     }
-    // The lattice's rows count southwards: what is positive there is clockwise seen from above.
+    // The lattice's rows count southwards, so a positive triangle is clockwise seen from above.
     for (Triangle t = 0; t < tin.triangle_count(); ++t) {
       if (tin.is_outside(t)) continue;
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
@@ -251,7 +251,7 @@ class PointRun {
     result.work.passes = insertions_;
   }
 
-  /// How far vertices may lie from their lattice points, along x or y.
+  /// Largest distance of vertices from their lattice points along x or y.
   double position_rounding(const Mesh& mesh) const {
     if (is_on_lattice_) return 0;
     double reach = 0;
@@ -271,15 +271,15 @@ class PointRun {
     return points_by_source_[static_cast<std::size_t>(source)];
   }
 
-  /// Inserts the points that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
-  /// false if that cannot help.
+  /// Inserts the points that break the bound according to the judge, within the budgets, and continues refinement.
+  /// Returns false if that cannot help.
   Result<bool> mend(Simplified& result) {
     if (!refinement_) restart_refinement();
     std::vector<std::uint32_t> offenders;
     stuck_.reset();
     for (const Offender& o : result.measurement.offenders) {
       offenders.push_back(point_of_source(o.col));
-      // The rounding of a vertex itself breaks the bound, and no other vertex can mend that.
+      // Rounding of this vertex breaks the bound, and no other vertex can mend that.
       const bool is_vertex = refinement_->gain_at(offenders.back()) == 0;
       if (is_vertex && (!stuck_ || std::abs(o.error) > std::abs(stuck_->error))) stuck_ = o;
     }
@@ -301,15 +301,15 @@ class PointRun {
       return true;
     }
     if (fits_ && !is_in_chain) return true;
-    // Chains are made anew, and with them the mesh around.
+    // Remakes the chains and the mesh around them.
     SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
     take_best_prefix();
     SCARP_RETURN_IF_ERROR(fit(result));
     return true;
   }
 
-  /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
-  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as the judge's
+  /// Removes thicker slivers along the hull than before. Over a sliver one millimetre high, the surface may rise by
+  /// metres, so that the rounding of its corners breaks the bound. False once slivers are as thick as the judge's
   /// tolerance for covered points.
   bool trim_border(const Mesh& mesh) {
     const double thinnest = std::max({8 * thinnest_border_, 32 * position_rounding(mesh), snapped_.lattice.step});
@@ -320,8 +320,8 @@ class PointRun {
     return true;
   }
 
-  /// Judges the mesh as it will be written, at the points as they were given. If snapping or float32 positions cost the
-  /// bound, the points that break it are inserted and refinement continues.
+  /// Judges the mesh as it will be written, at the points as they were given. If snapping or float32 positions break
+  /// the bound, the points at fault are inserted and refinement continues.
   Result<void> prove(Simplified& result) {
     MeasureOptions judge;
     judge.run.threads = options_.run.threads;
@@ -364,7 +364,7 @@ class PointRun {
     std::size_t point;
     double bound, error;
   };
-  /// With tolerances a point that cannot keep its own, else the worst.
+  /// With tolerances, a point that exceeds its own; else the worst point.
   Broken find_broken(const Measurement& m) const {
     if (options_.tolerances.empty() || m.offenders.empty())
       return {static_cast<std::size_t>(m.max_error_at[0]), bound_, m.max_error};
@@ -395,7 +395,7 @@ class PointRun {
                               snapped_.lattice.step, larger)) +
            (far.empty() ? "" : "; " + far);
   }
-  /// To two digits.
+  /// Rounds up to two digits.
   static double round_up(double error) {
     const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
     return std::ceil(error / unit) * unit;
@@ -414,7 +414,7 @@ class PointRun {
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
   double largest_height_ = 0, thinnest_border_ = 0;
-  std::vector<double> bounds_, aims_;  ///< by point, with tolerances: its bound, and that for fitting
+  std::vector<double> bounds_, aims_;  ///< by point, with tolerances: the bound, and that for fitting
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;

@@ -1,5 +1,6 @@
 // One run of the engine on scattered points, as a list of passes: refine, chains of lines, fit, freeze, prove.
-// Milestones: after `refine` and `take_best_prefix` no vertex is added; what `prove` has seen is what is returned.
+// Milestones: after `refine` and `take_best_prefix` no vertex is added; the returned mesh is the one that `prove`
+// judged.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,10 @@ namespace scarp {
 struct PointTask {
   const PointSet& points;
   const SnappedPoints& snapped;
-  std::span<const double> heights;  ///< heights of points as vertices: z, or that rounded to float32
+  std::span<const double> heights;  ///< heights of points as vertices: z, perhaps rounded to float32
   const PointLines& lines;
   PointSteps steps;
-  /// The subject of a refusal of a budget that the outline alone exceeds.
+  /// The subject of the error for a budget that the outline exceeds.
   const char* least() const {
     return points.boundary.empty() ? "the hull of the points alone needs" : "the boundary alone needs";
   }
@@ -33,8 +34,8 @@ struct PointMesh {
   std::uint64_t flat = 0, loose = 0;  ///< those of SimplifiedPoints
 };
 
-/// One mesh: towards the max error, or until insertion reaches a budget. Fails as simplify_points() does. REQUIRES: the
-/// domain has the ends of lines as vertices.
+/// Makes one mesh: towards the max error, or until insertion reaches a budget. Fails like simplify_points(). REQUIRES:
+/// the domain has the ends of lines as vertices.
 Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain);
 
 }  // namespace scarp

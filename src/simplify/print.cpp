@@ -1,5 +1,5 @@
-// A print is proven as it is written: its tops are put back where the raster's samples are, from float32 positions of
-// the print, and judged. The cost of rounding is known then, and the next run reserves twice as much.
+// A print is proven as it is written: float32 positions of its tops are moved back to the raster's samples and judged.
+// This gives the error by rounding, and the next run reserves twice as much.
 #include "scarp/print.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ Result<void> check_print(const PrintOptions& print) {
   return {};
 }
 
-/// The number that six significant digits of `value` are.
+/// `value` with six significant digits.
 double keep_six_digits(double value) {
   std::string text = fmt::format("{:.5e}", value);
   const std::size_t e = text.find('e');
@@ -55,20 +55,20 @@ double keep_six_digits(double value) {
   text.resize(e);
   text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
   const auto digits = static_cast<double>(std::strtol(text.c_str(), nullptr, 10));
-  // Powers up to the 22nd are exact, so that what comes out is the nearest number.
+  // Powers up to the 22nd are exact, so the result is the nearest number.
   double factor = 1;
   for (long k = 0; k < std::min(std::labs(power), 22L); ++k) factor *= 10;
   if (std::labs(power) > 22) factor *= std::pow(10.0, static_cast<double>(std::labs(power) - 22));
   return power < 0 ? digits / factor : digits * factor;
 }
 
-/// To six significant digits, if that is below the limit.
+/// Rounds to six significant digits if the result is below the limit.
 double shorten_below(double value, double limit) {
   const double shorter = keep_six_digits(value);
   return shorter < limit ? shorter : value;
 }
 
-/// Down to six significant digits, so that it is short and the print no larger than asked.
+/// Rounds down to six significant digits, so that the number is short and the print no larger than requested.
 double round_down(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 5);
   const double below = std::floor(value / unit) * unit;
@@ -106,7 +106,7 @@ Result<void> place_print(const PrintOptions& options, const Mesh& terrain, Print
   return {};
 }
 
-/// The tops of all print tiles where the raster's samples are.
+/// The tops of all print tiles, moved to the raster's samples.
 Mesh join_tops(const std::vector<PrintTile>& tiles, const std::vector<std::size_t>& top_sizes) {
   Mesh tops;
   for (std::size_t k = 0; k < tiles.size(); ++k) {
@@ -125,7 +125,8 @@ std::array<double, 2> cell_of(const Frame& frame) {
   return {std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5])};
 }
 
-/// The longest side of what has heights, in the frame. Reads a field that is not in memory once, some rows at a time.
+/// The longest side, in the frame, of the area with heights. Reads a field that is not in memory once, some rows at a
+/// time.
 Result<double> longest_side(const HeightField& field) {
   int left = field.cols, right = -1, top = field.rows, bottom = -1;
   constexpr int kSamplesTogether = 1 << 18;
@@ -159,7 +160,7 @@ Result<double> longest_side(const HeightField& field) {
   return std::max(span(0), span(1));
 }
 
-/// Nothing if the print is whole.
+/// Plans the print tiles; nothing for a whole print.
 Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print, const HeightField& field) {
   if (!print.is_split()) return std::optional<PrintTilePlan>();
   if (!field.frame.is_affine())
@@ -182,8 +183,8 @@ Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print,
   return std::optional(std::move(*tiles));
 }
 
-/// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples, those
-/// within the cutline if there is one.
+/// Places, cuts and closes the terrain, whose edges include the cuts, and judges the tops against the samples, if
+/// necessary those within the cutline.
 Result<Print> make_print(const PrintOptions& options, const HeightField& field,
                          const std::optional<PrintTilePlan>& tiles, const Mesh& terrain, const Cutline* cutline,
                          int threads) {
@@ -251,7 +252,7 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
   SCARP_RETURN_IF_ERROR(check_print(print));
   if (field.frame.space) return fail(ErrorKind::kUsage, "a print stands on a flat base: choose a frame on the map");
-  // The mesh may come out smaller than the samples, within a cutline; then the scale is larger and the run repeated.
+  // Within a cutline, the mesh may be smaller than the samples; then the scale is larger, and the run is repeated.
   std::optional<double> asked = options.goals.max_error;
   const auto tighten = [&](double scale) {
     if (print.max_error) asked = std::min(asked.value_or(HUGE_VAL), *print.max_error / scale);
@@ -264,7 +265,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
   if (tiles) add_cuts(*tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
-  options.output.float32_positions = false;  // they are rounded where the print stands
+  options.output.float32_positions = false;  // positions are rounded in the print
   const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
   if (asked) options.goals.max_error = *asked * (1 - kReserve);
   std::vector<SampleEdit> edits;

@@ -82,7 +82,7 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
   return {};
 }
 
-/// Samples are no farther from 0 than this and the bound. In space they are no positions' z.
+/// No sample is farther from 0 than this plus the bound. In space, a position's z is no height.
 double largest_height(const HeightField& field, const Mesh& mesh, const HeightRange& range) {
   double largest = 0;
   if (field.frame.space) return std::max(std::abs(range.min), std::abs(range.max));
@@ -91,10 +91,10 @@ double largest_height(const HeightField& field, const Mesh& mesh, const HeightRa
   return largest;
 }
 
-/// The judge's double arithmetic rounds by this share of the largest height and the bound.
+/// Rounding of the judge's double arithmetic, relative to the largest height and the bound.
 constexpr double kArithmetic = 1e-12;
 
-/// The bounds asked for at the samples of a row; empty: nothing by sample.
+/// The requested bounds of a row's samples; empty: no individual bounds.
 struct AskedOfRow {
   std::span<const float> mask, tolerance, bounds;
 
@@ -105,11 +105,11 @@ struct AskedOfRow {
   bool is_bounded(std::size_t x) const { return bounds.empty() || !std::isinf(bounds[x]); }
 };
 
-/// The error of a sample as a share of what was asked for, before the search for a budget's mesh multiplied it.
+/// The error of a sample relative to its requested bound, before the search for a budget's mesh multiplied it.
 struct ShareOfBound {
   double most = HUGE_VAL;  ///< in addition to the tolerance
   double reserve = 0;      ///< for the rounding of samples
-  double noise = 0;        ///< an error that the judge's own rounding makes
+  double noise = 0;        ///< error of the judge's own rounding
 
   double of(double error, float tolerance) const {
     const double asked = std::min(most, double{tolerance});
@@ -118,12 +118,12 @@ struct ShareOfBound {
   }
 };
 
-/// Sums up norms of errors, row by row: weighted errors, the largest norm, the samples that break a bound. The rows'
-/// errors and each step of their norm are rounded to float32, so what lies that near a bound is doubtful: where mending
-/// is possible it counts as broken, else as kept.
+/// Collects norms of errors, row by row: weighted errors, the largest norm, the samples that break a bound. The rows'
+/// errors and each step of their norm are rounded to float32, so an error that near a bound is doubtful: it breaks the
+/// bound if mending is possible, else it does not.
 class SampleVerdict {
  public:
-  /// `fields`: whose errors are in the norms.
+  /// `fields`: number of fields in the norms.
   /// `largest`: see largest_height().
   SampleVerdict(const Criterion& criterion, bool exact, std::size_t fields, double largest, Simplified& result,
                 Proof& proof)
@@ -186,7 +186,7 @@ class SampleVerdict {
   std::uint64_t count_ = 0, judged_ = 0;
 };
 
-/// Judges all that was tallied.
+/// Judges all samples of the tally.
 void judge_samples(const SimplifyOptions& options, const Criterion& criterion, const HeightField& field,
                    const Tally& tally, SampleVerdict& verdict) {
   const auto cols = static_cast<std::size_t>(field.cols);
@@ -198,7 +198,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, c
   verdict.finish();
 }
 
-/// Judges rows as they come by bounds that are read with them, some rows at a time.
+/// Judges each row by bounds that are read for some rows at a time.
 class WindowedVerdict {
  public:
   WindowedVerdict(const HeightField& field, const SourceBounds& bounds, SampleVerdict verdict)
@@ -208,7 +208,7 @@ class WindowedVerdict {
         promised_(static_cast<std::size_t>(field.cols)),
         norms_(promised_.size()) {}
 
-  /// Samples whose tolerances or weights are held.
+  /// Number of samples whose tolerances or weights are held.
   static std::uint64_t most_held(const HeightField& field) {
     return static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(rows_at_once(field));
   }
@@ -226,7 +226,7 @@ class WindowedVerdict {
     verdict_.add(row, norms_, asked);
     count_ignored(row);
   }
-  /// The valid samples without a bound. Fails as what was read did.
+  /// The number of valid samples without a bound. Fails if reading did.
   Result<std::uint64_t> finish() {
     SCARP_RETURN_IF_ERROR(status_);
     verdict_.finish();
@@ -249,7 +249,7 @@ class WindowedVerdict {
     return status_.has_value();
   }
 
-  /// Samples outside the mesh may be valid, too.
+  /// Counts valid samples without a bound, also those outside the mesh.
   void count_ignored(int row) {
     bool is_in_doubt = false;
     std::uint64_t covered = 0;
@@ -269,7 +269,7 @@ class WindowedVerdict {
   const HeightField& field_;
   const SourceBounds& bounds_;
   SampleVerdict verdict_;
-  std::vector<float> held_, promised_, norms_;  // the first of rows [first_, end_)
+  std::vector<float> held_, promised_, norms_;  // held_ has the rows [first_, end_)
   int first_ = 0, end_ = 0;
   std::uint64_t ignored_ = 0;
   Result<void> status_;
@@ -283,7 +283,7 @@ std::uint64_t band_bytes(const Recipe& recipe) {
          static_cast<unsigned>(judge::Band::rows_per_band(cols));
 }
 
-/// The number of threads for which the memory holds bands at work.
+/// The number of threads whose bands fit in memory.
 int threads_within(const Recipe& recipe) {
   return recipe.memory.threads_within(band_bytes(recipe), thread_count(recipe.options.run.threads));
 }
@@ -294,7 +294,7 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
                      options.goals.max_error.value_or(0), m.max_error_at[0], m.max_error_at[1], m.max_error);
 }
 
-/// Errors are judged as float32.
+/// The factor of the bounds; errors are judged as float32.
 double factor_of(const Simplified& result, const Criterion& criterion) {
   if (result.stop == StopReason::kMaxError) return criterion.factor();
   return std::max(1.0, result.judged_max_error * (1 + 0x1p-22));
@@ -346,7 +346,7 @@ Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact
   } else {
     result.judged_max_error = m.max_error;
     result.judged_rmse = m.rmse;
-    // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
+    // The judge's own double arithmetic rounds: this independently checks the engine's exact proof.
     const bool is_promised = result.stop == StopReason::kMaxError;
     const double rounding =
         kArithmetic * (criterion.bound().value_or(0) + largest_height(field, result.mesh, m.heights));

@@ -1,4 +1,4 @@
-// The mesh as it will be written, judged against everything that was promised.
+// Judges the mesh, as it will be written, against all of its bounds.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace scarp {
 
 struct Proof {
   bool kept = true;
-  std::string broken;               ///< the promise that is not kept, as the beginning of a sentence
-  std::vector<Offender> offenders;  ///< samples whose insertion may mend it
+  std::string broken;               ///< the broken promise, as the beginning of a sentence
+  std::vector<Offender> offenders;  ///< samples whose insertion may mend the fault
 };
 
-/// The extent of a proof: heights alone, or the topology too.
+/// The extent of a proof: only heights, or also the topology.
 enum class Look { kHeights, kAll };
 
-/// Fills the measurements of `result` from its mesh; searches for breaches where the error goal ended the run. `exact`:
-/// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
-/// which holds by construction, is omitted whatever `look` is. Fails as measure() does.
+/// Fills the measurements of `result` from its mesh, and searches for breaches if the error goal ended the run.
+/// `exact`: vertices are exactly on their samples. Then a breach within the judge's own rounding does not count, and
+/// the topology, which is valid by construction, is omitted for any `look`. Fails like measure().
 Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact, Look look, Simplified& result);
 
-/// Memory of prove() whatever the mesh.
+/// Memory of prove(), the same for all meshes.
 std::uint64_t proof_bytes(const Recipe& recipe);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// The engine one vertex at a time: thin over refine/.
+// The engine one vertex at a time: a thin layer over refine/.
 #include "base/caught.h"
 #include "grid/raster.h"
 #include "grid/samples.h"

@@ -26,7 +26,7 @@ namespace scarp {
 
 namespace {
 
-/// Soft lines follow the raster to within this share of the error that they are inserted for.
+/// Soft lines follow the raster to within this share of the error for which they are inserted.
 constexpr double kLineShare = 0.5;
 
 Result<Criterion> make_criterion(const Recipe& recipe, const Raster& raster) {
@@ -35,7 +35,7 @@ Result<Criterion> make_criterion(const Recipe& recipe, const Raster& raster) {
 
 const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
 
-/// `raster`: what is refined of samples in memory.
+/// `raster`: the samples in memory to refine.
 Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
                                           const ConstraintGraph* lines, StripTotals& strips) {
   const HeightField& field = recipe.field;
@@ -63,7 +63,7 @@ Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& ra
   return refine_tiled(seen, tiles);
 }
 
-/// And prepares lines that have waited for this.
+/// Calls refine_tiles() and prepares lines in parallel.
 Result<std::optional<Tiled>> refine_beside_lines(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
                                                  LineWork* lines, StripTotals& strips) {
   if (lines == nullptr || lines->is_prepared()) return refine_tiles(recipe, raster, criterion, graph_of(lines), strips);
@@ -99,10 +99,10 @@ Result<Simplified> run_greedily(const Recipe& recipe, LineWork* lines) {
   return run_passes(recipe, raster, criterion, graph_of(lines), std::nullopt);
 }
 
-/// Greedily where heights or a coarse goal make tiles of no use.
+/// Runs by tiles, or greedily if heights or a coarse goal make tiles useless.
 Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
   const HeightField& field = recipe.field;
-  // The engine reads nodata as such; all other code that reads samples beyond the mesh's own needs them cleaned.
+  // The engine accepts nodata; all other code that reads samples outside the mesh needs clean ones.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
   if (!recipe.is_streamed && recipe.reads_beyond) {
@@ -135,14 +135,14 @@ Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
   return result;
 }
 
-/// The border first. REQUIRES: samples in memory.
+/// Runs with the border first. REQUIRES: samples in memory.
 Result<Simplified> run_locked(const Recipe& recipe, LineWork* lines) {
   if (lines != nullptr) {
     SCARP_RETURN_IF_ERROR(lines->prepare());
   }
   const SimplifyOptions& options = recipe.options;
   SCARP_TRY(const auto& samples, Samples::to_refine(recipe.field, options.run.threads));
-  // The border's line needs tolerances that are sound.
+  // The border's line needs valid tolerances.
   SCARP_RETURN_IF_ERROR(make_criterion(recipe, samples.raster()));
   SCARP_TRY(const auto& border, LockedBorder::make(recipe.field, options, samples.raster()));
   if (lines != nullptr) {
@@ -184,8 +184,8 @@ Result<Simplified> run_along(const Recipe& recipe, LineWork* lines) {
   return run_greedily(recipe, lines);
 }
 
-/// `lines`: to be inserted, prepared or such as may wait; null: none. A promise that free vertices break may be kept by
-/// vertices on samples.
+/// `lines`: lines to insert, which are prepared or may wait; null: none. If free vertices break the bound, vertices on
+/// samples may satisfy it.
 Result<Simplified> run_with_lines(const Recipe& recipe, LineWork* lines) {
   auto result = run_along(recipe, lines);
   if (result || result.error().kind != ErrorKind::kPromise || !recipe.frees_vertices ||
@@ -210,7 +210,7 @@ Result<Simplified> insert_features(const Recipe& recipe, double error, double se
   result.lines_inserted = lines->inserted;
   result.farthest_line = std::move(lines->farthest);
   const Measurement& measured = result.measurement;
-  // If the field has a source, samples beyond a cut are nodata to refinement only.
+  // If the field has a source, samples outside a cut are nodata only for refinement.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
   if (lines->graph.cut) result.cut_off = valid - measured.samples - measured.uncovered - measured.stray;
   return result;
@@ -227,7 +227,7 @@ Result<Simplified> run_with_features(const Recipe& recipe) {
   options.run.memory.taken += line_bytes(recipe.field, features.breaklines) +
                               line_bytes(recipe.field, features.cutline.rings, features.cutline.affine);
   const Recipe found(recipe.field, options, recipe.scale);
-  // No wall and no ridge may be found.
+  // Perhaps neither walls nor ridges were found.
   SCARP_TRY(auto&& result,
             found.has_lines ? insert_features(found, error, seconds_since(start)) : run_with_lines(found, nullptr));
   result.features = std::move(fitted);

@@ -1,5 +1,5 @@
-// One run of the engine: it makes the lines of the features ready and inserts samples along the recipe's route; the
-// passes over the whole mesh (mesh_passes.h) follow. A search makes several.
+// One run of the engine: it prepares the lines of the features and inserts samples by the recipe; the passes over the
+// whole mesh (mesh_passes.h) follow. A search makes several runs.
 #pragma once
 
 #include "pieces/recipe.h"
@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// One mesh: towards the bounds, or, where insertion stops at budgets, within these. Fails as simplify() does.
+/// Makes one mesh: towards the bounds or, if insertion stops at budgets, within the budgets. Fails like simplify().
 /// REQUIRES: checked options; a budget only if Search::kNone.
 Result<Simplified> run(const Recipe& recipe);
 

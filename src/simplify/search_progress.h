@@ -1,4 +1,4 @@
-// A search, all runs of it, reported as one pass: its progress, its work.
+// The progress and work of all runs of a search, reported as one pass.
 #pragma once
 
 #include <string_view>
@@ -9,12 +9,12 @@
 
 namespace scarp {
 
-/// Reports the whole search as one pass. Each stage is given its share of the rest.
+/// Reports the whole search as one pass. Each stage has a share of the remaining progress.
 class SearchProgress {
  public:
   explicit SearchProgress(const ProgressCallback& callback) : callback_(callback), reporter_(callback) {}
 
-  /// False: cancelled.
+  /// Begins a stage. False: cancelled.
   bool begin(double share) {
     begin_ = end_;
     end_ = begin_ + share * (1 - begin_);

@@ -25,7 +25,7 @@ namespace scarp {
 
 namespace {
 
-/// If a budget decides how large the mesh is, the advice is a smaller budget.
+/// If a budget determines the size of the mesh, the error advises a smaller budget.
 Error name_budget(const SimplifyOptions& options, Error error) {
   if (error.kind != ErrorKind::kMemory || !error.message.ends_with(kLargerError)) return error;
   error.message.replace(error.message.size() - kLargerError.size(), kLargerError.size(),
@@ -33,8 +33,8 @@ Error name_budget(const SimplifyOptions& options, Error error) {
   return error;
 }
 
-/// A mesh with few vertices may need more than another for the angles and lengths that are asked for. So with goals of
-/// shape the next lower effort has its try, too.
+/// A mesh with few vertices may need more of them for the requested angles and lengths than another mesh. So with shape
+/// goals, the next lower effort is also tried.
 Result<Simplified> simplify_towards(const Recipe& recipe) {
   auto made = run(recipe);
   if (!made || made->is_cut_short || !recipe.traits.lower || !recipe.options.quality.shape.any()) return made;
@@ -65,8 +65,8 @@ Result<Simplified> make_mesh(const Recipe& recipe) {
   return made;
 }
 
-/// Simplifies with an effort that was not asked for. Where memory is too little for it, the mesh is refined only. One
-/// thread needs least, so that one decides: the mesh must not depend on their number.
+/// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined. The needs of one
+/// thread, the least, decide, because the mesh must not depend on the number of threads.
 Result<Simplified> simplify_by_default(const Recipe& recipe) {
   WhyFast why = recipe.fits ? WhyFast::kBudget : WhyFast::kOrder;
   auto made = make_mesh(recipe);

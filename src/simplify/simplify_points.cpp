@@ -1,5 +1,5 @@
-// Scattered points to a mesh: checks, then runs (point_run.h). After `snap_points` every point has a lattice point of
-// its own; after `build_domain` the boundary is fixed.
+// Scattered points to a mesh: checks, then runs (point_run.h). After `snap_points`, every point has its own lattice
+// point; after `build_domain`, the boundary is fixed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ double middle(std::span<const double> values) {
   return std::nearbyint(centre / unit) * unit + 0.0;  // no -0
 }
 
-/// Refuses points that rounding puts onto one line: the few points off it turn triangles over.
+/// Refuses points that rounding moves onto one line: the few points off it turn triangles over.
 Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain) {
   const PointLattice& lattice = snapped.lattice;
   const double reach = lattice.step * std::max(lattice.cols, lattice.rows) / 2;
@@ -90,7 +90,7 @@ Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, con
   return run_points(task, recipe, std::move(domain));
 }
 
-/// The mesh of a budget, by runs for several errors.
+/// Finds the mesh of a budget by runs for several errors.
 Result<Simplified> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
   const PointOptions& asked = recipe.options;
   SimplifyOptions options;

@@ -15,10 +15,10 @@ namespace scarp {
 
 namespace {
 
-/// Triangles ~ number^-kUsualPower, and how far from what is wanted a start may be, as a ratio.
+/// Triangles ~ number^-kUsualPower. kNearStart: accepted ratio of a start's triangles to the wanted number.
 constexpr double kUsualPower = 1.3, kNearStart = 1.5;
 
-/// With fewer, chance decides which way ends with the smaller error.
+/// With fewer triangles, chance decides which search ends with the smaller error.
 constexpr std::size_t kFewInPatches = 500;
 
 class SquaresSearch {
@@ -34,7 +34,7 @@ class SquaresSearch {
     const double asked = number_.is_factor() ? 1 : options_.goals.max_error.value_or(reached);
     if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) {
       auto searched = search_budget(options_, task_);
-      // Efforts may spend a max error that refinement did not need.
+      // Larger efforts may use a max error that refinement did not need.
       return searched && rank(*fast) < rank(*searched) ? fast : searched;
     }
     SCARP_TRY(const auto& first, find_start(reached, static_cast<double>(fast->mesh.triangle_count())));
@@ -73,7 +73,7 @@ class SquaresSearch {
     return task_.insertion_stops ? run_once(fast, {.refines_only = true}, 0.1) : search_budget(fast, task_, true);
   }
 
-  /// A number that refinement alone gives kSquareStart times the triangles for, nearly.
+  /// A number for which refinement makes about kSquareStart times the triangles.
   Result<double> find_start(double reached, double triangles) {
     const double number = reached * std::pow(kSquareStart, -1 / kUsualPower);
     SimplifyOptions options = number_.towards(number);
@@ -114,7 +114,7 @@ class SquaresSearch {
   BudgetNumber number_;
   Budget budget_;
   SearchProgress progress_;
-  bool is_saturated_ = false;  // smaller errors need few triangles more: the budget is near to following every sample
+  bool is_saturated_ = false;  // smaller errors need few more triangles: the mesh nearly follows every sample
 };
 
 }  // namespace

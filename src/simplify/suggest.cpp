@@ -1,12 +1,11 @@
-// Greedy insertion visits meshes of every size on its way, so one run draws the curve of the smallest max error by the
-// number of triangles (max error is not monotone, and a run that is given that error stops at just that mesh). A
-// default run, with its own order and removal, needs about half of them: how many is seen by making it, and the curve
-// then shows the error that suits so many triangles. The ratio hardly changes from share to share, so most shares need
-// one run.
+// Greedy insertion makes meshes of every size, so one run gives the curve of the smallest max error by the number of
+// triangles (the max error is not monotone, and a run towards that error stops at just that mesh). A default run, with
+// its own order and removal, needs about half of the triangles. One such run measures the ratio, and the curve then
+// gives the error for a number of triangles. The ratio hardly changes from share to share, so most shares need one run.
 //
 // A large raster is sampled by windows. They are refined together, always the one with the largest error, so that rough
-// windows get the vertices that flat ones do not need, as in the whole raster. Windows have more border for their area
-// than the raster, which makes the estimate a little too large.
+// windows have the vertices that flat windows do not need, as in the whole raster. Windows have more border for their
+// area than the raster, so the estimate is a little too large.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +23,7 @@ constexpr int kWindowSide = 256;
 constexpr int kMaxWindows = 16;
 constexpr std::string_view kPass = "estimate";
 constexpr double kGreedyPart = 0.5;  // share of the pass
-// Triangles of a default run per those of greedy insertion, more or less, and seldom fewer.
+// Usual and least ratio of a default run's triangles to those of greedy insertion.
 constexpr double kUsualRatio = 0.52, kLeastRatio = 0.35;
 
 struct Window {
@@ -101,7 +100,7 @@ class JointRefiner {
   std::uint64_t triangles_ = 0, vertices_ = 0;
 };
 
-/// Three significant digits, rounded up: a goal that is a little too small would miss its share.
+/// Rounds up to three significant digits: a goal that is a little too small would miss its share.
 double round_up(double error) {
   if (error <= 0) return 0;
   const double digits = std::pow(10.0, 2 - std::floor(std::log10(error)));
@@ -110,10 +109,10 @@ double round_up(double error) {
 
 struct GreedyMesh {
   std::uint64_t triangles;
-  double smallest_error;  ///< max error of this mesh, smaller than that of all before
+  double smallest_error;  ///< max error of this mesh, less than that of all previous meshes
 };
 
-/// The meshes on the way of greedy insertion that are better than all before.
+/// The meshes of greedy insertion that are better than all previous ones.
 class GreedyCurve {
  public:
   /// Refines until there are more than `most` triangles.
@@ -131,7 +130,7 @@ class GreedyCurve {
     return {};
   }
 
-  /// The largest mesh within so many triangles whose max error is smaller than all before; null if there is none.
+  /// The largest of these meshes with at most `triangles` triangles; null if there is none.
   const GreedyMesh* find_within(double triangles) const {
     const auto beyond = std::partition_point(meshes_.begin(), meshes_.end(), [triangles](const GreedyMesh& mesh) {
       return static_cast<double>(mesh.triangles) <= triangles;
@@ -143,7 +142,7 @@ class GreedyCurve {
   std::vector<GreedyMesh> meshes_;
 };
 
-/// Triangles of the windows' meshes in default runs; infinity where the error cannot be promised.
+/// Triangles of the windows' meshes in default runs; infinity if no mesh can satisfy the error.
 Result<double> count_triangles(const std::vector<Window>& windows, double error, const ProgressCallback& progress) {
   SimplifyOptions options;
   options.goals.max_error = error;
@@ -192,21 +191,21 @@ class ShareSearch {
         aim = std::min(aim, target / ratio_) * (1 - margin);
         margin = std::min(2 * margin, 0.5);
       }
-      // If the ratio leads out of the known range, halfway.
+      // If the ratio leads out of the known range, the middle is tried.
       if (found && !(fitting < aim && aim < exceeding)) aim = (fitting + exceeding) / 2;
     }
     return found;
   }
 
  private:
-  static constexpr double kMargin = 0.002;  ///< towards fewer triangles where the ratio was not enough; then doubled
+  static constexpr double kMargin = 0.002;  ///< towards fewer triangles if the ratio did not suffice; then doubled
   static constexpr double kUse = 0.9;
-  static constexpr int kMostLooks = 6;  ///< while one fits already
+  static constexpr int kMostLooks = 6;  ///< most runs once one fits
 
   const std::vector<Window>& windows_;
   const GreedyCurve& curve_;
   const double sample_rounding_;
-  double ratio_ = kUsualRatio;  ///< triangles of a default run per those of greedy insertion, when last seen
+  double ratio_ = kUsualRatio;  ///< last ratio of a default run's triangles to those of greedy insertion
 };
 
 Result<void> check_request(const HeightField& field, std::span<const double> shares) {

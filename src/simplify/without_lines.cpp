@@ -1,5 +1,5 @@
-// The doors to lines, cutlines and shapes of triangles, in a build without those rooms (SCARP_WITH_LINES=OFF), for a
-// web page that has no use for them.
+// The interfaces to lines, cutlines and shapes of triangles in a build without these modules (SCARP_WITH_LINES=OFF),
+// for a web page that does not need them.
 #include <span>
 
 #include "lines/breaklines.h"

@@ -35,7 +35,7 @@ struct Extent {
   }
 };
 
-/// Spots in the order of y, for questions about boxes.
+/// Spots in the order of y, for queries of boxes.
 class SpotsByRow {
  public:
   explicit SpotsByRow(std::vector<Spot> spots) : spots_(std::move(spots)), order_(spots_.size()) {
@@ -60,7 +60,7 @@ class SpotsByRow {
   std::vector<std::uint32_t> order_;
 };
 
-/// Even-odd over all rings.
+/// True if p is in the zone, by the even-odd rule over all rings.
 bool holds(const Zone& zone, const Spot& p) {
   bool is_inside = false;
   for (const Line& ring : zone.rings) {
@@ -73,7 +73,7 @@ bool holds(const Zone& zone, const Spot& p) {
   return is_inside;
 }
 
-/// A vertex near a line, and where along it: segment and share of that.
+/// A vertex near a line, and its place along the line: the segment and the share of the segment.
 struct Passed {
   double along = 0;
   std::uint32_t vertex = 0;
@@ -104,7 +104,7 @@ std::vector<Passed> find_passed(const SpotsByRow& spots, const Line& line, doubl
   return passed;
 }
 
-/// Who is whose neighbour.
+/// The neighbours of each vertex.
 class Neighbours {
  public:
   explicit Neighbours(const Mesh& mesh) : begins_(mesh.vertex_count() + 1) {
@@ -166,7 +166,7 @@ std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Li
     places.push_back(map_of(mesh, to_map, mesh.positions[3 * v], mesh.positions[3 * v + 1]));
   const SpotsByRow spots(std::move(places));
   const Neighbours neighbours(mesh);
-  constexpr std::size_t kAhead = 8;  // vertices next to the line that may stand between two of its chain
+  constexpr std::size_t kAhead = 8;  // most vertices next to the line between two of its chain
   std::vector<NodeString> strings;
   for (const Line& line : lines) {
     const std::vector<Passed> passed = find_passed(spots, line, reach);

@@ -10,7 +10,7 @@ namespace scarp {
 
 namespace {
 
-/// The parts to append: points and half-edges, counted from 0.
+/// The arrays to append: points and half-edges, counted from 0.
 struct PieceView {
   const TilePiece& piece;
   Point first;
@@ -44,7 +44,7 @@ struct TinView {
 
 }  // namespace
 
-/// Keeps at least half of the slots free.
+/// Frees all slots. At least half remain free with `vertices` vertices.
 void PieceMaker::clear(std::size_t vertices) {
   unsigned bits = 4;
   while ((std::size_t{1} << bits) < 2 * vertices) ++bits;

@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// A finished tile without its workbench: 13 bytes a triangle less than Triangulation, and no links out of the tile.
+/// A finished tile without its workbench: 13 bytes less per triangle than Triangulation, and no links out of the tile.
 struct TilePiece {
   Point first;  ///< the tile's first sample in the raster
   std::int32_t cols = 0, rows = 0;
@@ -36,15 +36,16 @@ class PieceMaker {
   unsigned shift_ = 0;
 };
 
-/// Joins pieces that are appended strip by strip, each row from left to right. Vertices on shared borders
-/// become one; edges there become ordinary edges, or constrained ones where the domain ends.
+/// Joins pieces that are appended strip by strip, each row from left to right. Equal vertices on shared borders become
+/// one; edges there become ordinary edges, or constrained ones where the domain ends.
 class Assembly {
  public:
   explicit Assembly(std::size_t tiles_per_row) : below_(tiles_per_row) {}
 
   /// REQUIRES: neighbours have the same vertices on their shared border.
   void append(const TilePiece& piece);
-  /// Appends a triangulation of the rectangle of cols × rows points from `first` on; its points count from `first`.
+  /// Appends a triangulation of the rectangle of cols × rows points from `first` on. Its points are relative to
+  /// `first`.
   void append(const Triangulation& tin, Point first, std::int32_t cols, std::int32_t rows);
 
   /// The vertices of the points that were appended last.
@@ -53,7 +54,7 @@ class Assembly {
   std::uint64_t vertex_count() const { return tin_.vertex_count(); }
   std::uint64_t triangle_count() const { return tin_.triangle_count(); }
 
-  /// True if no triangle so far is outside.
+  /// True if no appended triangle is outside.
   bool is_whole() const { return is_whole_; }
 
   /// The complete triangulation. `seams`: one half-edge of each edge between tiles that is neither constrained nor

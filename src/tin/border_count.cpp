@@ -27,7 +27,7 @@ std::uint64_t count_border_triangles(const Triangulation& tin) {
   std::int64_t count = 0;
   for (HalfEdge first = 0; first < 3 * tin.triangle_count(); ++first) {
     if (is_seen[first] || !is_border(tin, first)) continue;
-    // A loop of n corners: an outer one adds n - 2 triangles, a hole n + 2.
+    // An outer loop of n corners adds n - 2 triangles, and a hole n + 2.
     std::int64_t corners = 0, twice_area = 0;
     HalfEdge h = first;
     do {

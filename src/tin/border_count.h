@@ -1,4 +1,4 @@
-// Minimum size of a domain.
+// The fewest triangles of a domain.
 #pragma once
 
 #include <cstdint>

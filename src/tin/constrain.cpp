@@ -2,9 +2,9 @@
 //
 // The edges that the segment crosses are flipped away in turn (S. W. Sloan, "A fast algorithm for generating
 // constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge is flipped if its two triangles form
-// a strictly convex quadrilateral. Otherwise, or if the new edge still crosses, it moves to the end of the queue. Then
-// the edges that the flips made are tested again, except the segment. Integers are exact: a vertex on the segment is
-// recognized and splits it.
+// a strictly convex quadrilateral. Otherwise, or if the new edge still crosses, the edge moves to the end of the queue.
+// Then the edges that the flips made are tested again, except the segment. Integers are exact, so a vertex on the
+// segment is recognized and splits it.
 #include <algorithm>
 #include <cassert>
 #include <deque>

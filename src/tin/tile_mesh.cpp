@@ -60,7 +60,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
   stack_.clear();
   removed_.push_back(t);
   splits_constraint_ = false;
-  Link split = kBorder;  // the edge of t that contains p, seen from beyond
+  Link split = kBorder;  // the edge of t that contains p, from the other side
   for (unsigned k = 0; k < 3; ++k) {
     const Record& record = records_[t];
     const Link beyond = record.links[k];
@@ -72,7 +72,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
     }
   }
   const double x = tile_x(p), y = tile_y(p);
-  // Depth first with the next side counter-clockwise on top, so that sides are found in order.
+  // Depth first, with the next side counter-clockwise on top of the stack, so that sides are found in order.
   for (unsigned k = 3; k-- > 0;) stack_.push_back(t << 3 | k);
   while (!stack_.empty()) {
     const Link at = stack_.back();
@@ -97,7 +97,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
 }
 
 std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
-  // If p lies on the border, that side opens the fan: its ends are the first and the last spoke.
+  // If p is on the border, that side opens the fan: its ends are the first and the last spoke.
   const auto border = std::find_if(sides_.begin(), sides_.end(), [p](const Cavity::Side& side) {
     return side.beyond == kBorder && orient(side.from, side.to, p) == 0;
   });
@@ -131,7 +131,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
 }
 
 TileMesh::Id TileMesh::locate(TilePoint p, Id hint) const {
-  // The first edge varies: with constraints a fixed order could cycle.
+  // The first edge varies, since a fixed order could cycle with constraints.
   std::uint32_t sequence = 12345;
   Link entered = kBorder;
   for (Id t = hint;;) {

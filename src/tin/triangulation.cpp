@@ -77,14 +77,14 @@ Triangulation::Location Triangulation::locate_in(Point p, Triangle t) const {
     if (orient(points_[corners_[h]], points_[corners_[next(h)]], p) == 0) on_edge = h;
   }
   if (on_edge == kNone) return {Location::Kind::kInside, 3 * t};
-  // The lower half-edge, so that the result does not depend on the side of the search.
+  // Uses the lower half-edge, so that the result does not depend on the side of the search.
   const HalfEdge other = twins_[on_edge];
   return {Location::Kind::kOnEdge, other != kNone && other < on_edge ? other : on_edge};
 }
 
 Triangulation::Location Triangulation::locate(Point p, Triangle hint) const {
-  // The walk tests the edges of each triangle from a varying first edge: with constraints a fixed order could cycle.
-  // The variation is a fixed sequence, not random.
+  // The walk tests the edges of each triangle from a varying first edge, since a fixed order could cycle with
+  // constraints. The variation is a fixed sequence, not random.
   std::uint32_t sequence = 12345;
   HalfEdge entered = kNone;
   for (Triangle t = hint;;) {
@@ -183,8 +183,8 @@ void Triangulation::flip(HalfEdge h) {
   attach(3 * u + 2, ad);
 }
 
-// Each pending edge faces the new vertex in its triangle; a flip replaces it by a spoke and exposes two edges behind
-// it.
+// Each pending edge is opposite to the new vertex in its triangle. A flip replaces it by a spoke and exposes two edges
+// behind it.
 void Triangulation::legalize_star(FlipRule* rule) {
   while (!pending_.empty()) {
     const HalfEdge h = pending_.back();

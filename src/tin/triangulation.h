@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Triangulation;
 
-/// Decides about edges instead of the Delaunay property.
+/// A rule for flipping edges instead of the Delaunay property.
 class FlipRule {
  public:
   virtual ~FlipRule() = default;
@@ -33,10 +33,10 @@ class FlipRule {
 ///
 /// Constrained edges are never flipped. Every other edge between two triangles is locally Delaunay (no corner strictly
 /// inside the neighbour's circle; cocircular ties keep the present edge), unless points were inserted under another
-/// rule. No recursion, no tolerance, no randomness: the same insertions in the same order give the same arrays.
+/// rule. There is no recursion, tolerance or randomness: the same insertions in the same order give the same arrays.
 ///
-/// Triangle slots are reused: inserting a point changes only the triangles around it and adds at most two ids (on an
-/// interior edge or inside a triangle), the highest.
+/// Triangle slots are reused: inserting a point changes only the triangles around it and adds at most two ids, the
+/// highest (on an interior edge or inside a triangle).
 class Triangulation {
  public:
   /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, with the diagonal from south-west to north-east
@@ -44,7 +44,7 @@ class Triangulation {
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 
-  /// Its arrays, for code that changes many triangles at once.
+  /// The triangulation's arrays, for code that changes many triangles at once.
   struct Arrays {
     static constexpr std::uint8_t kOutside = 8;
     Array<Point> points;
@@ -52,7 +52,7 @@ class Triangulation {
     Array<HalfEdge> twins;      ///< 3 per triangle
     Array<std::uint8_t> flags;  ///< bits 0..2: edge k is constrained; kOutside
   };
-  /// REQUIRES: positive triangles that cover a rectangle, linked and constrained alike on both sides of every edge.
+  /// REQUIRES: positive triangles that cover a rectangle, with equal links and constraints on both sides of every edge.
   explicit Triangulation(Arrays arrays);
 
   std::size_t vertex_count() const { return points_.size(); }
@@ -81,16 +81,16 @@ class Triangulation {
   /// Walks from `hint` (any triangle) to the point. REQUIRES: p in the rectangle. Cost: expected O(√triangles), O(1)
   /// near the hint.
   Location locate(Point p, Triangle hint) const;
-  /// Like locate(), for t known to contain p (closed).
+  /// Like locate(). REQUIRES: t contains p (closed).
   Location locate_in(Point p, Triangle t) const;
 
-  /// Inserts p and restores the Delaunay property, or that of `rule`, which decides about edges opposite to the new
-  /// vertex; each flip adds a spoke, so this terminates. Returns the vertex at p. Both halves of a constrained edge
-  /// stay constrained; p may lie off it if all four triangles are positive. Cost: expected O(1).
+  /// Inserts p and restores the Delaunay property, or that of `rule`, for edges opposite to the new vertex. Each flip
+  /// adds a spoke, so this terminates. Returns the vertex at p. Both halves of a constrained edge stay constrained; p
+  /// may lie off it if all four triangles are positive. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
 
-  /// Applies the rule to the listed edges, and again to the four edges around each flip, until nothing flips or `most`
-  /// edges were flipped. Empties the list.
+  /// Applies the rule to the listed edges, and again to the four edges around each flip, until no edge flips or `most`
+  /// were flipped. Empties the list.
   void improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most);
 
   /// Multiplies all coordinates to make room for points in between. REQUIRES: no coordinate exceeds kMaxCoordinate
@@ -112,12 +112,13 @@ class Triangulation {
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 
-  /// Release memory. Without links, twins and insertion are unavailable; without triangles only vertices remain.
+  /// These two release memory. Without links, twins and insertion are unavailable; without triangles, only vertices
+  /// remain.
   void drop_links() { twins_.release(); }
-  /// Returns the corners of all inside triangles, 3 each, and keeps only vertices. REQUIRES: no links.
+  /// Returns the corners of all inside triangles, 3 each, and releases all but the vertices. REQUIRES: no links.
   Array<Vertex> take_corners();
 
-  /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.
+  /// The half-edge from a to b; kNone if they are not neighbours. Cost: a walk to a, O(1) if a was touched last.
   HalfEdge find_edge(Vertex a, Vertex b) const;
 
  private:

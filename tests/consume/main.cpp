@@ -1,4 +1,4 @@
-// The smallest user of the library: simplifies a hill within 0.5 and judges the mesh.
+// A minimal user of the library: simplifies a hill within 0.5 and judges the mesh.
 #include <scarp/scarp.h>
 
 #include <cmath>

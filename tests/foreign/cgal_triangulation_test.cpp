@@ -194,7 +194,7 @@ RC_GTEST_PROP(cgal, a_constrained_triangulation_holds_the_edges_and_areas_of_cga
   Peer peer;
   for (Vertex v = 0; v < tin.vertex_count(); ++v) peer.insert(to_peer(tin.point(v)));
   for (const auto& [a, b] : graph.edges) peer.insert_constraint(to_peer(graph.points[a]), to_peer(graph.points[b]));
-  RC_ASSERT(peer.number_of_vertices() == tin.vertex_count());  // nothing was left to cut
+  RC_ASSERT(peer.number_of_vertices() == tin.vertex_count());  // nothing remained to cut
   RC_ASSERT(constrained_edges(tin) == constrained_edges(peer));
   const Faces ours = faces_of(tin), theirs = faces_of(peer);
   RC_ASSERT(ours.areas.size() == theirs.areas.size());

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Reads bytes in order; zeros after the end.
+/// Reads bytes in order; returns zeros after the end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}

@@ -1,6 +1,6 @@
-// Any tile and any triangles: all scan kernels of this machine give the bits of the scalar one. The bytes choose the
-// size, the heights (few levels, nodata, extreme magnitudes), the threshold, then triangles and hints with two bytes a
-// coordinate.
+// Any tile and any triangles: all scan kernels of this machine give the bits of the scalar kernel. The bytes choose the
+// size, the heights (few levels, nodata, extreme magnitudes), the threshold, then triangles and hints with two bytes
+// per coordinate.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -19,7 +19,7 @@ void require(bool holds) {
 }
 
 constexpr std::int32_t kMaxSide = 300;
-constexpr std::size_t kPattern = 61;  ///< heights from bytes, which the tile repeats with slow changes
+constexpr std::size_t kPattern = 61;  ///< number of heights from bytes, which the tile repeats with slow changes
 
 struct Tile {
   std::vector<float> samples, low, high;
@@ -53,7 +53,7 @@ struct Tile {
     view.block_high = high.data();
   }
 
-  /// By the scalar kernel, the reference.
+  /// Uses the scalar kernel, the reference.
   void fill_blocks() {
     const auto all = scarp::available_kernels();
     std::uint64_t nodata = 0;

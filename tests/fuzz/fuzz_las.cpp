@@ -1,4 +1,4 @@
-// Any bytes as a LAS or LAZ file: points, each counted once, or an error with words; the same on two threads.
+// Any bytes as a LAS or LAZ file: points, each counted once, or an error with a message; the same on two threads.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // Any lines on any small raster: breaklines hard and soft, lakes, rivers, cliffs, ridges, cutlines, shapes, with every
-// effort, to an error or a number of triangles. Either the mesh keeps its goal by the judge, against the raster
-// modified by lines, is sound, and has each line as a chain of edges. Or there is an error with a message. Bytes: the
+// effort, to an error or a number of triangles. Either the mesh satisfies its goal for the judge, against the raster
+// modified by lines, is sound, and has each line as a chain of edges; or there is an error with a message. Bytes: the
 // request, a height for each sample, then three for each vertex: two coordinates and a height. Few places with many
 // repeats make lines meet, overlap and turn back.
 #include <algorithm>
@@ -117,7 +117,7 @@ struct Piece {
   bool goes_on_before = false, goes_on_behind = false;
 };
 
-/// Clips the piece to the raster without its border, along which a line may enter anywhere.
+/// Clips the piece to the raster without its border, along which a line may enter at any place.
 bool clip(const scarp::OwnedHeightField& field, Piece& piece) {
   const Plan whole = piece.p, way{piece.q[0] - whole[0], piece.q[1] - whole[1]};
   const Plan most{field.cols - 1.0, field.rows - 1.0};
@@ -229,7 +229,7 @@ void walk(const Task& task, const scarp::Mesh& mesh) {
   }
 }
 
-/// Lakes and rivers are lines with heights, cliffs and ridges more lines; a cut is not.
+/// Adds lakes and rivers as lines with heights, and cliffs and ridges as more lines; a cut adds none.
 bool constrain(Task& task, std::vector<scarp::Line> lines) {
   const std::array<double, 6>& affine = task.field.frame.affine;
   scarp::LineConstraints& constraints = task.options.features.breaklines;

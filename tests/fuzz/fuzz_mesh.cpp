@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (mesh->channel_count < 0 || mesh->channels.size() != count * static_cast<std::size_t>(mesh->channel_count)) {
     std::abort();
   }
-  // A mesh that was read can be written; PLY and VTU, which hold all contents, read back the same.
+  // A mesh that was read can be written; reading back PLY and VTU, which store all contents, gives the same mesh.
   for (const scarp::MeshFormatTraits* traits : scarp::mesh_formats()) {
     if (!traits->is_read) continue;
     const auto bytes = scarp::encode_mesh(*mesh, traits->format);

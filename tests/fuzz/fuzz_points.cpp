@@ -1,4 +1,4 @@
-// Any bytes as text of columns: points for which simplify_points() keeps its promise, or an error with a message.
+// Any bytes as text of columns: points for which simplify_points() satisfies its guarantee, or an error with a message.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

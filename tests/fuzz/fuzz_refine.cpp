@@ -1,6 +1,6 @@
-// Any small raster, any goal, any effort and any strategy: the promise holds, every sample of the domain is covered,
-// and the mesh is sound; or there is an error with a message. The bytes choose the size, the goals, the steepness, then
-// one height each: a few values mean nodata and infinities, and few levels cause many ties.
+// Any small raster, any goal, any effort and any strategy: the bound holds, every sample of the domain is covered, and
+// the mesh is sound; or there is an error with a message. The bytes choose the size, the goals, the steepness, then one
+// height each: some values mean nodata and infinities, and few levels cause many ties.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

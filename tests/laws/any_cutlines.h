@@ -167,8 +167,8 @@ inline std::vector<double> heights_at(const std::vector<std::array<Corner, 3>>& 
   return heights;
 }
 
-/// The first of 200 places where triangles cover nodata or points outside the polygons, or miss points inside; "" if
-/// none.
+/// The first of 200 places at which triangles cover nodata or points outside the polygons, or do not cover points
+/// inside; "" if none.
 inline std::string find_wrong_cover(const Field& field, const Cutline& cutline,
                                     const std::vector<std::array<Corner, 3>>& triangles, Draughtsman& draughtsman) {
   constexpr double kDoubt = 1.0 / 64;
@@ -198,7 +198,7 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
     if (corners != (15 & ~(1 << k))) continue;
     x0 -= std::int64_t{col} * kLatticeSteps, x1 -= std::int64_t{col} * kLatticeSteps;
     y0 -= std::int64_t{row} * kLatticeSteps, y1 -= std::int64_t{row} * kLatticeSteps;
-    // Makes the nodata corner the last of both.
+    // Mirrors the cell so that the nodata corner is the last one.
     if (k % 2 == 0) std::tie(x0, x1) = std::pair(kLatticeSteps - x1, kLatticeSteps - x0);
     if (k / 2 == 0) std::tie(y0, y1) = std::pair(kLatticeSteps - y1, kLatticeSteps - y0);
     return doubled_below(x0, x1, y0, y1, kLatticeSteps);
@@ -206,7 +206,8 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
   return 0;
 }
 
-/// Twice the area of polygons and domain, in lattice steps: summed over the rectangles between all sides.
+/// Twice the area of the polygons' intersection with the domain, in lattice steps, summed over the rectangles between
+/// all sides.
 inline std::int64_t doubled_area(const Field& field, const Cutline& cutline) {
   std::vector<std::int64_t> xs, ys;
   for (std::int32_t col = 0; col < field.cols; ++col) xs.push_back(std::int64_t{col} * kLatticeSteps);

@@ -18,7 +18,7 @@
 namespace scarp::testing {
 inline constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-/// Heights from a hash of a node's place, on waves: steep, flat, with steps and voids, all round the globe.
+/// Heights from a hash of a node's place, plus waves: steep and flat, with steps and voids, around the globe.
 class AnyLand final : public NodeSource {
  public:
   AnyLand(std::uint32_t seed, double relief, double noise, bool has_voids, DegreeBox covered)
@@ -86,7 +86,7 @@ inline QuantizedMesh decode(const TerrainTile& tile, const TileGrid& grid = {}) 
   return *decoded;
 }
 
-/// A vertex on an edge as clients see it: place along the edge, height in single precision, normal.
+/// A vertex on an edge in a client's view: place along the edge, height in single precision, normal.
 using EdgeVertex = std::tuple<std::uint16_t, float, std::array<std::uint8_t, 2>>;
 
 inline std::vector<EdgeVertex> edge_of(const QuantizedMesh& mesh, const std::vector<std::uint32_t>& vertices,
@@ -97,7 +97,7 @@ inline std::vector<EdgeVertex> edge_of(const QuantizedMesh& mesh, const std::vec
   return edge;
 }
 
-/// Only at 0 in single precision clients may differ, by 1.5e-11 m.
+/// Rounds heights near 0, the only ones at which clients may differ in single precision, by 1.5e-11 m.
 inline std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   for (auto& [place, height, normal] : edge) {
     if (std::abs(height) < 1e-10f) height = 0;
@@ -105,7 +105,7 @@ inline std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   return edge;
 }
 
-/// Positions of a tile's rows of nodes in the degrees between its ends, as steps: by the library's formulas.
+/// Positions of a tile's rows of nodes between its ends in degrees, in steps, by the library's formulas.
 inline std::vector<double> lines_of(TileId id, std::int32_t steps, const TileGrid& grid) {
   constexpr double kPi = 3.141592653589793;
   std::vector<double> degrees, lines;
@@ -118,7 +118,7 @@ inline std::vector<double> lines_of(TileId id, std::int32_t steps, const TileGri
   return lines;
 }
 
-/// Largest error at the nodes of a decoded tile, by brute force: every node in every triangle around it.
+/// Largest error at the nodes of a decoded tile, by brute force: every node against every triangle that contains it.
 inline double brute_force(const QuantizedMesh& mesh, TileId id, std::int32_t steps, const NodeSource& source,
                           float background, const TileGrid& grid) {
   std::vector<float> nodes(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));

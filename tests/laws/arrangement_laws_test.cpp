@@ -1,4 +1,4 @@
-// Soups of lines: the arranged lines do not cross and stay in place.
+// Random lines: the arranged lines do not cross and remain in place.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

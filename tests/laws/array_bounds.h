@@ -1,4 +1,4 @@
-// Bounds of samples for laws, in memory and by windows.
+// Bounds of samples for laws, in memory and in windows.
 #pragma once
 
 #include <rapidcheck.h>
@@ -16,7 +16,7 @@ namespace scarp::testing {
 
 inline constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
-/// Windows of an unmodified array: infinities remain.
+/// Reads windows of an array without changes: infinities remain.
 class ArrayBounds : public SampleSource {
  public:
   ArrayBounds(std::span<const float> bounds, int cols) : bounds_(bounds), cols_(cols) {}

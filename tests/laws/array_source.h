@@ -1,4 +1,4 @@
-// Samples in memory, read by windows like a file's.
+// Samples in memory, read in windows like a file's samples.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ inline constexpr double kBallRadius = 6371000;
 
 class Ball : public SpaceTransform {
  public:
-  /// Earth-centred; `longitude` and `latitude` are of the raster's centre.
+  /// Earth-centred; `longitude` and `latitude` are those of the raster's centre.
   Ball(double longitude, double latitude) {
     std::array<double, 1> x{longitude}, y{latitude}, z{0};
     to_space(x, y, z);
@@ -49,7 +49,7 @@ class Ball : public SpaceTransform {
   std::array<double, 3> origin_{}, up_{};
 };
 
-/// Samples `cell` degrees apart, the first one at (longitude, latitude), rows going south.
+/// Samples `cell` degrees apart, the first one at (longitude, latitude); rows advance to the south.
 inline Frame ball_frame(double longitude, double latitude, double cell, int cols, int rows) {
   Frame frame;
   frame.kind = Frame::Kind::kGeocentric;

@@ -35,7 +35,7 @@ int valid_corners_of(const Raster& raster, std::int32_t x, std::int32_t y) {
          raster.is_valid({x + 1, y + 1});
 }
 
-// Heights with 8 bits after the point and thresholds with 10: exact sums in integer arithmetic.
+// Heights with 8 bits after the point and thresholds with 10, so that integer arithmetic gives exact sums.
 RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   Field field = any_field(3, 200);
   for (float& z : field.samples) z = std::round(z * 256) / 256;
@@ -151,7 +151,7 @@ std::vector<TilePoint> border_of(const Field& field, const TileWindow& window, c
   return border;
 }
 
-// The rule about nodata: whatever the outlines of two tiles, their vertices on the shared side are the chain's.
+// The rule about nodata: for any outlines of two tiles, their vertices on the shared side are the chain's.
 RC_GTEST_PROP(border_chain, both_tiles_start_with_the_chain_and_the_corners_on_a_shared_side, ()) {
   const Field field = any_field(4, 50);
   const double threshold = any_threshold();

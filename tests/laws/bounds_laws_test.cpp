@@ -1,4 +1,5 @@
-// Efforts with bounds of samples: every sample satisfies its own, be it 0, none, or a thousand times its neighbour's.
+// Efforts with bounds of samples: every sample satisfies its own bound, even if that is 0, none, or a thousand times
+// its neighbour's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +32,7 @@ using testing::Relief;
 
 std::vector<float> any_bounds(const Field& field) { return testing::any_bounds(field.cols, field.rows); }
 
-/// The greedy mesh; nothing without a surface.
+/// The greedy mesh; none without a surface.
 std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;

@@ -1,4 +1,4 @@
-// Budgets with effort: the search for the error, on real meshes and on invented counts.
+// Budgets with effort: the search for the error, on real meshes and on invented counts of triangles.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -47,7 +47,7 @@ RC_GTEST_PROP(budget_search, budgets_are_kept_and_greedy_insertion_is_never_bett
   check_budget(seen, *made, options);
   if (greedy->stop == StopReason::kMaxError || greedy->stop == StopReason::kExact) {
     RC_ASSERT(made->stop == greedy->stop);
-    // For the squared error the max error is only a cap, and the whole budget is useful.
+    // For the squared error, the max error is only a cap, and the whole budget is useful.
     const bool is_no_worse = options.goals.objective == Objective::kMax
                                  ? made->mesh.triangle_count() <= greedy->mesh.triangle_count()
                                  : seen.rmse <= greedy->measurement.rmse;
@@ -113,7 +113,7 @@ TEST(budget_search, a_much_larger_budget_never_has_a_larger_error) {
 TEST(budget_search, a_bound_that_fits_is_the_goal) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
   const auto bounded = *simplify(field.view(), {.goals = {.max_error = 30.0}, .quality = {.effort = Effort::kHigh}});
-  // Fewer than greedy insertion needs, so that the search must find out.
+  // Fewer triangles than greedy insertion needs, so that a search is necessary.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), {.max_error = 30.0})->mesh.triangle_count());
   const auto made = *simplify(
@@ -191,7 +191,7 @@ TEST(budget_search, is_told_as_one_pass_and_can_be_cancelled) {
   }
 }
 
-/// Invented runs: a bound needs a number of triangles, `share` of it with effort; budgets use all.
+/// Invented runs: a bound needs a number of triangles, with effort `share` of that; budgets use all.
 struct MadeUp {
   std::function<double(double error)> triangles;
   double share = 0.42;

@@ -1,4 +1,4 @@
-// Laws of every mesh within a budget, and terrain that fills budgets well.
+// Laws of every mesh within a budget, and terrain whose meshes fill budgets well.
 #pragma once
 
 #include <rapidcheck/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace scarp::testing {
 
-/// Smooth, so that triangles grow as a power of the bound without jumps.
+/// Smooth terrain: the number of triangles is a power of the bound, without jumps.
 inline Field hills(int cols, int rows) {
   Field field{cols, rows, {}};
   for (int y = 0; y < rows; ++y) {
@@ -28,7 +28,7 @@ inline bool is_within(const Simplified& made, const SimplifyOptions& options) {
          made.mesh.triangle_count() <= options.goals.max_triangles.value_or(made.mesh.triangle_count());
 }
 
-/// Laws: the mesh satisfies the budgets, is sound, and has the reported and promised error.
+/// Laws: the mesh satisfies the budgets, is sound, and has the reported and guaranteed error.
 inline void check_budget(const Measurement& seen, const Simplified& made, const SimplifyOptions& options) {
   RC_ASSERT(is_within(made, options));
   RC_ASSERT(seen.is_sound());

@@ -51,7 +51,7 @@ PointSet around_a_bay(std::uint32_t seed, int count) {
   return points;
 }
 
-/// From a tenth of the mean distance between points to their extent.
+/// A length from a tenth of the mean distance between points to their extent.
 double any_length(const PointSet& points) {
   const auto extent = [](const std::vector<double>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -110,7 +110,7 @@ double area_of(const SnappedPoints& points, const Ring& ring) {
   return static_cast<double>(twice / 2) * points.lattice.step * points.lattice.step;
 }
 
-/// Triangles of all triples whose circle contains no point; nothing if four points lie on one circle.
+/// Triangles of all triples whose circle contains no point; none if four points lie on one circle.
 std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   std::vector<Corners> triangles;
@@ -135,7 +135,7 @@ std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints&
   return triangles;
 }
 
-/// The boundary of the triangles as one ring without repeated or missing points; nothing if there is none.
+/// The boundary of the triangles as one ring without repeated or missing points, if there is one.
 std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vector<Corners>& triangles,
                                                                   std::size_t count) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -308,7 +308,7 @@ TEST(concave, hull_takes_no_length_that_is_none) {
   }
 }
 
-/// `place` returns x and y of each, rounded to centimetres.
+/// `place` returns x and y of each point, rounded to centimetres.
 template <class Place>
 PointSet on_hills(int count, const Place& place) {
   PointSet points;

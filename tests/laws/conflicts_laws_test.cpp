@@ -190,7 +190,7 @@ std::vector<Setting> all_settings() {
   };
 }
 
-/// The allowed error of each sample; +infinity where there is no bound. With a budget, tolerances have a factor.
+/// The allowed error of each sample; +infinity: no bound. With a budget, tolerances have a factor.
 std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor, double tolerance) {
   const SimplifyOptions& options = scene.options;
   const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
@@ -301,7 +301,7 @@ bool is_alone_refused(const Setting& setting) {
   return false;
 }
 
-/// A factor of all tolerances is searched for, or the table explains the refusal.
+/// The run searches for a factor of all tolerances, or the table explains the refusal.
 void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   SCOPED_TRACE(std::string(name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
   Scene scene;
@@ -322,7 +322,7 @@ void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   expect_kept(scene, *made, kTightTolerance);
 }
 
-/// Under sanitizers a twentieth of the pairs, and a fifth of the settings with two others.
+/// Sanitized builds run a twentieth of the pairs, and a fifth of the settings with two others.
 constexpr std::size_t kPairStep = testing::kIsSanitized ? 20 : 1, kSettingStep = testing::kIsSanitized ? 5 : 1;
 
 TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_the_table) {

@@ -1,4 +1,4 @@
-// Laws of lines in a mesh: they and the bound survive any insertion, removal or move.
+// Laws of lines in a mesh: any insertion, removal or move preserves the lines and the bound.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

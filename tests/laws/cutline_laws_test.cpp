@@ -59,7 +59,7 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
   }
 }
 
-/// The judge's measurement, which finds a sound mesh within the bound.
+/// The judge's measurement, which must find a sound mesh within the bound.
 Measurement judged(const Field& field, const SimplifyOptions& options, const Simplified& result) {
   MeasureOptions judge;
   judge.cutline = &options.features.cutline;

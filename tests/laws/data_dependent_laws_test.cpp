@@ -143,7 +143,7 @@ RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_
   RC_ASSERT(after->measurement.rmse <= before->measurement.rmse * (1 + 1e-12) + 1e-9);
 }
 
-// Synthetic fields: if the surface bends in one direction only, Delaunay's round triangles are wasteful.
+// Synthetic fields: if the surface bends in only one direction, Delaunay's round triangles are wasteful.
 TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
   const auto field = generate_field(FieldStyle::kDiagonalStep, 256, 256);
   ASSERT_TRUE(field);

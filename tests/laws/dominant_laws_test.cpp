@@ -44,7 +44,7 @@ RC_GTEST_PROP(dominant, ends_with_every_sample_within_the_bound, ()) {
   RC_ASSERT(broken == "");
 }
 
-// Only rounding errors occur: errors that float32 computes as 0 still count.
+// Only rounding errors occur; errors that float32 computes as 0 still count.
 RC_GTEST_PROP(dominant, reproduces_slopes_that_float32_cannot_hold, ()) {
   const Field field =
       testing::sloping_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 40), *rc::gen::inRange(2, 40));

@@ -39,7 +39,7 @@ struct Coloured {
 
 Coloured any_coloured(std::int32_t largest) {
   Coloured made{any_field(largest), {}, {}, *rc::gen::element(1.0, 1.0, 0.0, 2.0, 0.25)};
-  // No channels: heights alone, with another weight.
+  // No channels: only heights, with a different weight.
   const auto count = *rc::gen::inRange(made.height_scale == 1 || made.height_scale == 0 ? 1 : 0, 4);
   for (int k = 0; k < count; ++k) {
     made.layers.push_back(testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), made.heights.cols,
@@ -64,7 +64,7 @@ double norm_at(const Mesh& mesh, const HeightField& view, Norm norm, int col, in
   return norm == Norm::kSum ? sum : norm == Norm::kSquares ? std::sqrt(squares) : largest;
 }
 
-/// All samples are covered, and within the bound by brute force.
+/// Checks by brute force that all samples are covered and within the bound.
 void expect_norm(const Simplified& made, const HeightField& view, const Goals& goals) {
   RC_ASSERT(made.measurement.uncovered == 0u);
   RC_ASSERT(measure(view, made.mesh)->is_sound());

@@ -1,4 +1,4 @@
-// Laws of efforts in the public interface: with all removals and moves, the promise is that of refinement.
+// Laws of efforts in the public interface: with all removals and moves, the guarantee is that of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -97,7 +97,7 @@ RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
   }
 }
 
-// Energies of the fit overflow float32 there.
+// Energies of the fit overflow float32 for large heights.
 RC_GTEST_PROP(effort, heights_of_any_magnitude_keep_the_promise, ()) {
   Field field{*rc::gen::inRange(2, 7), *rc::gen::inRange(2, 7), {}};
   double largest = 0;

@@ -22,8 +22,8 @@ struct Field {
 
 enum class Relief { kTies, kFlat, kCliff, kReal, kRidges };
 
-/// Heights with the difficulties of real rasters: few distinct values (ties), plateaus, cliffs, arbitrary floats.
-/// `nodata_share` of the samples are NaN, in blobs.
+/// Heights with the difficulties of real rasters: few distinct values (ties), plateaus, cliffs, arbitrary floats. A
+/// share of `nodata_share` of the samples is NaN, in blobs.
 inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows, Relief relief,
                           double nodata_share = 0) {
   std::mt19937 random(seed);

@@ -167,7 +167,7 @@ TEST(fit, halves_a_greedy_mesh) {
   const auto before_fit = refined(field, 4)->triangle_count();
   const auto whole = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2});
   EXPECT_LT(static_cast<double>(whole.tin.triangle_count()), 0.75 * static_cast<double>(before_fit));
-  // Borders of patches cost almost nothing after the second round has released them.
+  // After the second round has released borders of patches, they cost almost nothing.
   const auto patches = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2, .patch_side = 64});
   EXPECT_LT(static_cast<double>(patches.tin.triangle_count()), 1.02 * static_cast<double>(whole.tin.triangle_count()));
 }
@@ -351,8 +351,8 @@ testing::ShapeOracle shape_of(const FitCorner& a, const FitCorner& b, const FitC
   return {{Point{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}, 1};
 }
 
-/// The least energy over all triangulations of the corners first … last of a ring whose shapes are not below the floor,
-/// by trying all; infinite if none.
+/// The least energy of all triangulations of a ring's corners first … last with no shape below the floor, by trying
+/// all; infinite if there is none.
 double least_energy(const TriangleError& error, const std::vector<FitCorner>& ring, std::size_t first, std::size_t last,
                     const testing::ShapeOracle& floor) {
   if (last == first + 1) return 0;

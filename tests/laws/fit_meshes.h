@@ -33,7 +33,7 @@ inline Field any_field() {
 
 inline double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6); }
 
-/// The greedy mesh; nothing without a surface.
+/// The greedy mesh; none without a surface.
 inline std::optional<Triangulation> refined(const Field& field, double threshold) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
@@ -111,7 +111,7 @@ inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted,
   return "";
 }
 
-/// Sum of squared errors at samples; those on edges count once per triangle.
+/// Sum of squared errors at samples; samples on edges count once per triangle.
 inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
   double sum = 0;
   for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
@@ -135,7 +135,7 @@ inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
   return sum;
 }
 
-/// Height over longest edge as a fraction; exact if products of two are integers below 2⁵³.
+/// The ratio of height to longest edge as a fraction; exact if products of two numbers are integers below 2⁵³.
 struct ShapeOracle {
   double area = 1, longest = 1;
 
@@ -150,7 +150,7 @@ struct ShapeOracle {
   bool operator<(const ShapeOracle& other) const { return area * other.longest < other.area * longest; }
 };
 
-/// Shape of the triangles of the domain; at most `most`.
+/// Worst shape of the triangles of the domain; at most `most`.
 inline ShapeOracle worst_shape(const Triangulation& tin, double aspect, ShapeOracle most) {
   for (Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (!tin.is_outside(t)) most = std::min(most, ShapeOracle(tin.corners(t), aspect));

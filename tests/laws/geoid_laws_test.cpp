@@ -1,4 +1,4 @@
-// Laws of height datums: the built-in geoid is PROJ's, and a grid's surface is the textbook's.
+// Laws of height datums: the built-in geoid equals PROJ's, and a grid's surface equals the textbook's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -69,7 +69,7 @@ RC_GTEST_PROP(egm96_law, is_what_proj_makes_of_its_grid_to_6_mm, ()) {
   const double ours = height_at(*egm96(), longitude, latitude);
   const double other = height_at(*theirs, longitude, latitude);
   RC_ASSERT(std::abs(ours - other) < 0.006);
-  // Another turn is the same place.
+  // A further turn gives the same place.
   RC_ASSERT(std::abs(ours - height_at(*egm96(), longitude + 360, latitude)) < 1e-9);
 }
 
@@ -97,7 +97,7 @@ RC_GTEST_PROP(grid_zero_law, is_bilinear_between_its_nodes, ()) {
       height += weight * double{nodes[static_cast<std::size_t>(static_cast<int>(y) * cols + wrapped)]};
     }
   }
-  // On a node's line rounding may require adjacent nodes.
+  // On the line of a node, rounding may require adjacent nodes.
   if (std::isnan(height) || std::isnan(found)) {
     const bool is_on_line =
         std::abs(at_col - std::round(at_col)) < 1e-6 || std::abs(at_row - std::round(at_row)) < 1e-6;

@@ -1,4 +1,4 @@
-// Laws of compressed GLB: the decoded bytes keep the mesh's promises.
+// Laws of compressed GLB: the decoded bytes satisfy the mesh's guarantees.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -98,7 +98,7 @@ RC_GTEST_PROP(height_units, heights_and_distances_are_those_on_the_ground, ()) {
     const double on_ground = (raster.place.crs == "EPSG:32616" ? 10 : 30) * raster.place.metres;
     RC_ASSERT(std::abs(cell / on_ground - 1) < 1e-5);
   }
-  // With the factor and the unit of the result, reading gives the same again.
+  // With the factor and the unit of the result, reading gives the same samples again.
   ReadOptions again = options;
   again.z_scale = info.z_scale;
   again.z_unit = info.unit;

@@ -1,4 +1,4 @@
-// Every set of the judge's kernels gives the bits of the scalar one, for all samples, triangles and questions about the
+// Every set of the judge's kernels gives the bits of the scalar set, for all samples, triangles and questions about the
 // worst samples.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -160,7 +160,7 @@ RC_GTEST_PROP(judge_kernels_laws, facets_agree_to_the_bit, ()) {
     RC_ASSERT(have_same_bits(judge_all(judge::judge_kernels(), field, facets, false, watch), expected));
 }
 
-/// The share of the samples of each magnitude shows in the buckets, zeros subtracted.
+/// The number of samples in each bucket, with zeros subtracted.
 std::vector<std::int64_t> counts_of(const Buckets& buckets) {
   std::vector<std::int64_t> counts(1 << 20);
   for (std::size_t i = 0; i < buckets.count; ++i) ++counts[buckets.values[i]];

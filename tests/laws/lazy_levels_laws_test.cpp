@@ -1,4 +1,4 @@
-// The lazy order keeps the dominant order's promise for any estimates.
+// The lazy order satisfies the dominant order's guarantee for any estimates.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -52,11 +52,11 @@ RC_GTEST_PROP(lazy_levels, ends_with_every_sample_within_the_bound_and_every_tri
   RC_ASSERT(unsound == "");
   const std::string broken = testing::find_broken_bound(field.raster(), started.mesh, threshold);
   RC_ASSERT(broken == "");
-  // The promise of the dominant order: it finds nothing left to do.
+  // The guarantee of the dominant order: it finds nothing to insert.
   RC_ASSERT(refine_dominant(started.mesh, scanner).insertions == 0u);
 }
 
-// A threshold of 0, or one below the smallest normal float, must not make estimates that mean "clean".
+// A threshold of 0, or below the smallest normal float, must not cause estimates that mean "clean".
 RC_GTEST_PROP(lazy_levels, keeps_thresholds_that_float32_holds_as_zero, ()) {
   const Field field = *rc::gen::element(false, true)
                           ? testing::sloping_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 40),

@@ -1,5 +1,5 @@
-// Laws of budgets with lines: sufficient budgets are kept, insufficient ones named, and every mesh is that of some max
-// error.
+// Laws of budgets with lines: sufficient budgets are satisfied, errors name insufficient ones, and every mesh is that
+// of some max error.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

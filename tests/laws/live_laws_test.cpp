@@ -86,7 +86,7 @@ Model any_model() {
   model.heights = random_field(*rc::gen::arbitrary<std::uint32_t>(), model.cols, model.rows, relief,
                                *rc::gen::element(0.0, 0.0, 0.1, 0.5))
                       .samples;
-  // Frames whose offsets float32 and doubles hold exactly, as a bound in exact arithmetic needs them.
+  // Frames with offsets that are exact in float32 and double, as a bound in exact arithmetic needs.
   const double cell = *rc::gen::element(1.0, 0.125, 8.0);
   model.frame.affine = {*rc::gen::element(0.0, 1024.0), cell, 0, 0, 0, *rc::gen::element(-cell, cell)};
   model.options.max_error = *rc::gen::element(0.0, 0.5, 2.0, 20.0);
@@ -103,7 +103,7 @@ Model any_model() {
   return model;
 }
 
-/// One change of the live field and of the model alike.
+/// Makes the same change to the live field and the model.
 void change(LiveField& live, Model& model) {
   const int kind = *rc::gen::inRange(0, 8);
   if (kind == 0 || kind == 7) {
@@ -175,7 +175,7 @@ bool are_same(const Cells& a, const Cells& b) {
   });
 }
 
-/// The norm of the errors at each sample, channel by channel as if it were the heights; NaN at voids.
+/// The norm of the errors at each sample, from each channel as if it were the heights; NaN at voids.
 std::vector<double> norms_of(const Model& model, const Mesh& mesh) {
   std::vector<double> norms(model.heights.size(), 0);
   for (std::size_t k = 0; k <= model.channels.size(); ++k) {

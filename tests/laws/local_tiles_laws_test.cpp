@@ -20,7 +20,7 @@ namespace {
 using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Hills with walls and, if wanted, holes.
+/// Hills with walls and, if requested, holes.
 std::vector<float> make_land(int cols, int rows, bool has_holes, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<float> heights;
@@ -118,7 +118,7 @@ TEST_P(LocalTiles, have_all_samples_within_the_bound_and_end_with_the_raster) {
     const double bound = report_.levels[level].bound + lattice_error(plan_, z);
     const auto tile = decode_tile_glb(bytes, "tile");
     ASSERT_TRUE(tile) << tile.error().message;
-    // Above the blocks the last node may lie up to a coarse cell beyond the raster.
+    // At levels above the blocks, the last node may lie up to a coarse cell beyond the raster.
     const DegreeBox box = plan_.grid.bounds_of({z, x, y});
     const double beyond = z < plan_.block_level ? (box.east - box.west) / 256 : 0;
     const auto at = [&](std::uint32_t v) {
@@ -150,7 +150,7 @@ TEST_P(LocalTiles, have_all_samples_within_the_bound_and_end_with_the_raster) {
           is_met[level][static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols) +
                         static_cast<std::size_t>(col)] = true;
           const double mesh = a[2] + to_b * (b[2] - a[2]) + to_c * (c[2] - a[2]);
-          // Non-square cells move with their lattice: there the distance in space counts, not this one.
+          // Non-square cells move with their lattice, so the distance in space counts, not this distance.
           if (raster.cell_x != raster.cell_y) continue;
           EXPECT_LE(std::abs(mesh - sample(col, row)), bound * (1 + 1e-12) + 1e-9);
         }

@@ -27,7 +27,7 @@ using testing::Relief;
 
 constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
-/// The textbook for integer heights and a room of 511 · `unit`: every pair of samples, in integers.
+/// The textbook algorithm for integer heights and a tolerance of 511 · `unit`: every pair of samples, in integers.
 class Textbook {
  public:
   Textbook(const std::vector<float>& heights, std::int64_t unit) : room_(511 * unit) {
@@ -93,7 +93,7 @@ TEST(simplify_edge, spans_a_long_level_edge_in_few_segments) {
   EXPECT_EQ(simplify_edge(sea, 1).size(), 4u);
 }
 
-/// An edge of a field: its samples and the row behind.
+/// An edge of a field: its samples and the adjacent row.
 struct Edge {
   std::vector<Point> points;
   std::vector<float> heights, behind;
@@ -172,7 +172,7 @@ void expect_line(const Mesh& mesh, const Field& field, double max_error) {
     }
     for (const auto& [i, vertex] : found) {
       const bool is_on_line = std::binary_search(line.begin(), line.end(), static_cast<std::int32_t>(i));
-      // Or two half cells meet there.
+      // Alternatively, two half cells meet there.
       const bool is_corner =
           i < edge.points.size() && (std::isnan(edge.behind[i]) || is_covered(i) != (i > 0 && is_covered(i - 1)));
       RC_ASSERT(is_on_line || is_corner);
@@ -261,7 +261,7 @@ RC_GTEST_PROP(locked_border, has_the_same_normals_on_both_sides, ()) {
   if (!left || !right) return;  // no surface
   const auto here = vertices_on(left->mesh, first, edges_of(first)[side]);
   for (const auto& [step, vertex] : vertices_on(right->mesh, second, edges_of(second)[side_second])) {
-    // With nodata next to the edge, one of both may have another vertex, also between samples.
+    // With nodata next to the edge, one of the two meshes may have another vertex, also between samples.
     if (step >= edges_of(second)[side_second].points.size()) continue;
     if (const auto same = here.find(step); same != here.end()) RC_ASSERT(same->second == vertex);
   }

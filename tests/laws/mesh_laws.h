@@ -11,9 +11,9 @@ namespace scarp::testing {
 
 enum class Edges { kDelaunay, kAny };
 
-/// The first broken law, "" if none: (1) twins point at each other along the same edge, constraints agree; (2)
-/// triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay except
-/// across constraints (unless `edges` is kAny); (5) the mark "outside" changes only across constraints.
+/// The first broken law, "" if none: (1) twins refer to each other along the same edge, and their constraints agree;
+/// (2) triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay
+/// except across constraints (unless `edges` is kAny); (5) the mark "outside" changes only across constraints.
 inline std::string verify_triangulation(const Triangulation& tin, std::int32_t cols, std::int32_t rows,
                                         Edges edges_are = Edges::kDelaunay) {
   std::int64_t area2 = 0;
@@ -45,7 +45,7 @@ inline std::string verify_triangulation(const Triangulation& tin, std::int32_t c
   return "";
 }
 
-/// The same vertices, triangles, constraints and marks, in the same order.
+/// True if vertices, triangles, constraints and marks are the same, in the same order.
 inline bool is_same(const Triangulation& a, const Triangulation& b) {
   if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
   for (Vertex v = 0; v < a.vertex_count(); ++v) {

@@ -92,7 +92,7 @@ FitCorner at_sample(const Stack& stack, Point p) {
   return {p.x * kLatticeSteps, p.y * kLatticeSteps, stack.heights().raster().at(p)};
 }
 
-/// Three valid samples, counter-clockwise; nothing if all are collinear or too many are.
+/// Three valid samples, counter-clockwise; none if all or too many samples are collinear.
 std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
   std::vector<Point> valid;
   for (Point p{0, 0}; p.y < stack.heights().rows; ++p.y) {
@@ -114,7 +114,7 @@ std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
 struct Oracle {
   double worst = 0, energy = 0;         // in bounds
   std::vector<double> stiffness, push;  // for each field
-  double excess = 0, over_bound = 0;    // largest norm less slack bounds, less bounds
+  double excess = 0, over_bound = 0;    // largest norm minus slack bounds; minus bounds
 
   Oracle(const Stack& stack, const std::array<Point, 3>& corners, double unit, double slack = 1)
       : stiffness(stack.judged.size(), 0), push(stack.judged.size(), 0) {
@@ -261,7 +261,7 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   RC_ASSERT(is_same(again.tin, first.tin));
 }
 
-// Channels without new information: they count like heights.
+// Channels without new information count like heights.
 TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   Stack stack{{field}, {}, Norm::kMax, 4, {}};

@@ -64,7 +64,7 @@ double area_of(const Mesh& mesh) {
   return sum / 2;
 }
 
-/// From the west to the east through the middle, so that it crosses every boundary.
+/// A line from west to east through the middle, which crosses every boundary.
 Line dike(std::mt19937& random, bool is_soft) {
   Line line;
   line.name = "dike";
@@ -199,7 +199,7 @@ TEST(point_features, lines_keep_their_vertices_and_their_heights_along_the_bound
   for (int i = 0; i <= 6; ++i) kerb.points.push_back({20.0 + 10 * i, 20, 105 + 0.1 * i});
   for (int i = 1; i <= 3; ++i) kerb.points.push_back({80, 20.0 + 10 * i, 105.6});
   const std::array<std::array<double, 3>, 4> corners{{{20, 20, 0}, {80, 20, 0}, {80, 80, 0}, {20, 80, 0}}};
-  for (std::size_t first = 0; first < 4; ++first) {  // the kerb runs along any edges of the ring, the last one too
+  for (std::size_t first = 0; first < 4; ++first) {  // the kerb runs along any edges of the ring, also the last
     PointSet points = ground;
     EXPECT_EQ(*add_lines(std::vector{kerb}, points), 0u);
     Line ring;
@@ -219,7 +219,7 @@ TEST(point_features, lines_keep_their_vertices_and_their_heights_along_the_bound
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const auto [x, y, z] = mesh.vertex(v);
       const bool is_between = std::abs(y - 20) < 1e-6 && x > 20 && x < 80;
-      EXPECT_TRUE(!is_between || z > 104.9) << x;  // no corner between them has the height of the ground
+      EXPECT_TRUE(!is_between || z > 104.9) << x;  // no corner in between has the height of the ground
     }
     EXPECT_EQ(made.simplified.measurement.uncovered, 0u);
   }

@@ -62,7 +62,7 @@ RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
   options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
   const auto made = simplify_points(points, options);
   RC_ASSERT(made.has_value());
-  // Places of the lake, between shore and island, and the land.
+  // Places in the lake, between shore and island, and on land.
   PointSet places;
   for (int k = 0; k < 40; ++k) {
     const double px = x - 149 + *rc::gen::inRange(0, 298), py = y - 149 + *rc::gen::inRange(0, 298);
@@ -77,7 +77,7 @@ RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
 }
 
 RC_GTEST_PROP(point_lakes, have_the_percentile_of_their_shore, ()) {
-  // On a slope in x the surface along the shore is known.
+  // On a slope in x, the surface along the shore is known.
   PointSet points = any_land(400);
   for (const auto& [px, py] : {std::pair{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}}) {
     points.x.push_back(px);

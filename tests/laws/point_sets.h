@@ -14,7 +14,7 @@
 namespace scarp::testing {
 
 enum class Scatter {
-  kWhole,    ///< few whole numbers: duplicates, collinear runs, cocircular points
+  kWhole,    ///< few distinct integers: duplicates, collinear runs, cocircular points
   kUtm,      ///< far from the origin, two decimals
   kFloats,   ///< arbitrary doubles in the unit square
   kTiny,     ///< arbitrary doubles in a square of 10⁻⁷, far from the origin
@@ -70,8 +70,8 @@ inline PointSet random_points(std::uint32_t seed, int count, Scatter scatter, He
   return points;
 }
 
-/// Number of points that no triangle covers, and the largest error of the others, by the textbook: every point against
-/// every triangle, in barycentric coordinates.
+/// Number of points that no triangle covers, and the largest error of the other points, by brute force: every point
+/// against every triangle, in barycentric coordinates.
 inline std::pair<int, double> judge_by_brute_force(const PointSet& points, const Mesh& mesh) {
   int missed = 0;
   double worst = 0;

@@ -67,7 +67,7 @@ RC_GTEST_PROP(point_tolerances, hold_at_every_point_by_brute_force, ()) {
   for (const std::size_t i : firsts(points)) {
     const double bound = std::min(*options.max_error, double{tolerances[i]});
     const auto [missed, error] = testing::judge_by_brute_force(only(points, i), made->simplified.mesh);
-    // Rounding, and vertices for angles, move the hull by a little.
+    // Rounding, and vertices for angles, move the hull slightly.
     RC_ASSERT(missed == 0 || options.float32_positions || options.quality.shape.any());
     RC_ASSERT(error <= bound + 1e-6);
   }

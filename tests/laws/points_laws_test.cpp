@@ -1,4 +1,4 @@
-// Laws of scattered points: the promise, the oracle, the judge, and a raster as a set of points.
+// Laws of scattered points: the guarantee, the oracle, the judge, and a raster as a set of points.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -29,7 +29,7 @@ PointSet any_points(int most, Scatter scatter, Heights heights) {
   return testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(3, most), scatter, heights);
 }
 
-/// False if all points are collinear, for which nothing is promised.
+/// False if all points are collinear; then nothing is guaranteed.
 bool has_area(const PointSet& points) {
   const auto snapped = snap_points(points, DuplicatePolicy::kFirst);
   return snapped && build_domain(*snapped).has_value();
@@ -145,7 +145,7 @@ RC_GTEST_PROP(points, end_with_any_shapes_and_keep_the_promise, ()) {
   RC_ASSERT(judged.uncovered == 0u);
 }
 
-/// Algorithm I: examine everything before each insertion.
+/// Algorithm I: examines everything before each insertion.
 std::vector<std::uint32_t> insert_by_brute_force(const SnappedPoints& snapped, double threshold) {
   ScatteredDomain domain = *build_domain(snapped);
   for (;;) {

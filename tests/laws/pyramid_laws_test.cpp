@@ -1,4 +1,4 @@
-// Laws of whole pyramids: the same tiles alone, by blocks, in any order and on any number of threads.
+// Laws of whole pyramids: tiles are the same individually, by blocks, in any order and on any number of threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -143,7 +143,7 @@ TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_til
     const auto tiles = find_tiles(made->plan, &land);
     ASSERT_TRUE(tiles) << tiles.error().message;
     EXPECT_EQ(*tiles, made->report.tiles);
-    // At least these, without reading nodes.
+    // Without reading nodes, it finds at least these tiles.
     const auto perhaps = find_tiles(made->plan, nullptr);
     ASSERT_TRUE(perhaps);
     for (std::size_t z = 0; z < tiles->size(); ++z)

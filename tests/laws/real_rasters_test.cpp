@@ -1,4 +1,4 @@
-// The promise on real terrain: every open raster that is small enough to judge sample by sample.
+// The guarantee on real terrain, for every open raster that is small enough to judge sample by sample.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace scarp::real_rasters_test {
 namespace {
 
-/// Every `stride`th sample of every `stride`th row.
+/// Keeps every `stride`th sample of every `stride`th row.
 void thin_out(OwnedHeightField& field, int stride) {
   std::vector<float> samples;
   for (int row = 0; row < field.rows; row += stride) {

@@ -15,8 +15,8 @@ namespace {
 
 class ReferenceRows : public testing::TestWithParam<const char*> {};
 
-/// Scape inserts the worst sample up to a number of vertices, like this. Ties and float arithmetic differ, so meshes
-/// are similar, not equal.
+/// Like this test, Scape inserts the worst sample up to a number of vertices. Ties and float arithmetic differ, so
+/// meshes are similar, not equal.
 TEST_P(ReferenceRows, HaveScapesErrorAndTriangles) {
   const std::string file = std::string("scape_") + GetParam() + ".stm";
   const auto path = bench::find_raster(scarp::source_dir(), file);

@@ -93,7 +93,7 @@ RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices,
   RC_ASSERT(found == expected);
 }
 
-// The promise in integers without scanning: every valid sample of every triangle that contains it.
+// The guarantee in integers without scan conversion: every valid sample in every triangle that contains it.
 RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
   const Case c = random_case(22);
   const Raster raster = c.field.raster();

@@ -158,7 +158,7 @@ RC_GTEST_PROP(repair, threads_change_nothing, ()) {
   }
 }
 
-/// True from the nth call on, by any caller.
+/// Returns true from the nth call on, by any caller.
 std::function<bool()> up_after(int questions) {
   auto left = std::make_shared<std::atomic<int>>(questions);
   return [left] { return left->fetch_sub(1) <= 0; };
@@ -494,7 +494,7 @@ RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_s
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
-  // The mesh keeps this bound, which is within the slack of a smaller one.
+  // The mesh satisfies this bound, which is within the slack of a smaller one.
   const TriangleError error =
       TriangleError(bench.field.raster(), patch.window().first, bench.threshold / 1.5, {2, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);

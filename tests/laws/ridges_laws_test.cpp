@@ -102,7 +102,7 @@ TEST(Ridges, TheFlankOfAConeHasNone) {
 }
 
 TEST(Ridges, WhereTwoMeetBothHaveAVertex) {
-  // A valley that forks: three beds that meet.
+  // A forked valley: three beds that meet.
   const Field field = field_of(81, 81, [](double x, double y) {
     const double fork = std::max(y - 40, 0.0), bed = std::min(std::abs(x - 40 - fork), std::abs(x - 40 + fork));
     return 3 * bed - 0.2 * y;
@@ -248,7 +248,7 @@ bool is_chain(const std::vector<std::array<double, 4>>& edges, std::array<double
   for (const auto& [x0, y0, x1, y1] : edges) {
     const auto beside = [&](double x, double y) { return std::abs((x - a[0]) * dy - (y - a[1]) * dx) / length; };
     const auto along = [&](double x, double y) { return ((x - a[0]) * dx + (y - a[1]) * dy) / length; };
-    // Lines that cross others are moved by 3/512, by the lattice.
+    // The lattice moves lines that cross others by 3/512.
     if (beside(x0, y0) > 0.01 || beside(x1, y1) > 0.01) continue;
     const double from = along(x0, y0), to = along(x1, y1);
     if (from < to && from > -0.01 && to < length + 0.01) covered += to - from;

@@ -1,5 +1,5 @@
-// True in a sanitized build, which is many times slower. It searches for memory and arithmetic faults, not for rare
-// cases, so fewer cases and samples suffice.
+// A sanitized build is many times slower. It searches for memory and arithmetic faults, not for rare cases, so fewer
+// cases and samples suffice.
 #pragma once
 
 #if defined(__has_feature)
@@ -18,7 +18,7 @@ inline constexpr bool kIsSanitized = true;
 inline constexpr bool kIsSanitized = false;
 #endif
 
-/// So many rows, columns, cases; a share of them in sanitized builds.
+/// A number of rows, columns or cases, divided by `share` in sanitized builds.
 constexpr int fewer(int count, int share = 2) { return kIsSanitized ? count / share : count; }
 
 }  // namespace scarp::testing

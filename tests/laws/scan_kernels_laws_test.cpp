@@ -1,4 +1,4 @@
-// Every set of scan kernels gives the bits of the scalar one, for all tiles, triangles and hints.
+// Every set of scan kernels gives the bits of the scalar set, for all tiles, triangles and hints.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -88,7 +88,7 @@ RC_GTEST_PROP(scan_kernels_laws, agree_on_wild_heights, ()) {
 }
 
 // The error as a real number: heights · area is a sum of products that long double represents exactly for heights of
-// few bits, otherwise almost (2⁻⁶⁴). The guard includes this error.
+// few bits, otherwise up to 2⁻⁶⁴. The guard includes this error.
 RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   std::mt19937 random(seed);

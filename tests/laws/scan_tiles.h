@@ -49,7 +49,7 @@ class ScanTile {
   std::uint64_t nodata_ = 0;
 };
 
-/// Triangles within the tile with valid corners, anywhere or all near each other, counter-clockwise.
+/// Counter-clockwise triangles within the tile, with valid corners that are anywhere or near each other.
 inline std::vector<std::array<TilePoint, 3>> random_triangles(const ScanTile& tile, std::mt19937& random, int count) {
   const TileView& view = tile.view();
   std::vector<std::array<TilePoint, 3>> triangles;

@@ -58,8 +58,8 @@ void visit_edges(const Mesh& mesh, Visit&& visit) {
     visit(mesh.triangles[k], mesh.triangles[k % 3 == 2 ? k - 2 : k + 1]);
 }
 
-/// The largest ratio of an edge to its length allowed by a grade, by definition: sizes spread along edges until none
-/// falls.
+/// The largest ratio of an edge's length to the length that a grade allows. By definition, sizes spread along edges
+/// until no size decreases.
 double worst_growth(const Mesh& mesh, double grade, double least) {
   std::vector<double> sizes(mesh.vertex_count(), std::numeric_limits<double>::infinity());
   visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
@@ -151,7 +151,7 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
   options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
-  // A goal of lower priority than angles does not harm them.
+  // A goal of lower priority does not harm angles.
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_edge = *rc::gen::element(0.5, 2.0, 5.0);
   const Simplified result = simplified(view, options);
   // Corners of nodata have at least 45 degrees if samples are square.
@@ -184,7 +184,7 @@ RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
   SimplifyOptions options = any_run();
   options.quality.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
   if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
-  // A goal of lower priority than grade does not harm it.
+  // A goal of lower priority does not harm the grade.
   if (*rc::gen::arbitrary<bool>())
     options.quality.shape.min_edge = longer_side(view.frame) * *rc::gen::element(0.7, 2.0, 6.0);
   if (*rc::gen::element(false, false, true)) {
@@ -331,7 +331,8 @@ RC_GTEST_PROP(shape, edges_that_are_too_short_are_counted_and_cost_no_promise, (
 }
 
 TEST(shape, vertices_for_angles_and_lengths_make_no_short_edge) {
-  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would require more.
+  // A plane with a peak: the bound needs the peak's foot and top, four samples apart; angles would require more
+  // vertices.
   Field field = testing::random_field(1, 81, 81, testing::Relief::kRidges);
   std::fill(field.samples.begin(), field.samples.end(), 0.0f);
   field.samples[40 * 81 + 40] = 10;

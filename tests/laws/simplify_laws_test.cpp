@@ -133,8 +133,7 @@ TEST(simplify, heights_times_a_power_of_two_give_the_same_triangles) {
   EXPECT_EQ(one->mesh.triangles, two->mesh.triangles);
 }
 
-// Without ties in height the rule cannot prefer rows: a transposed raster keeps the same bound with the same first
-// vertices.
+// Without ties in height, the rule cannot prefer rows: a transposed raster has the same first vertices.
 TEST(simplify, the_first_vertices_do_not_depend_on_transposition) {
   const Field field = testing::random_field(8, 24, 31, Relief::kReal);
   Field transposed{31, 24, std::vector<float>(field.samples.size())};

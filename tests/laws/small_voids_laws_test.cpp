@@ -1,4 +1,4 @@
-// Laws of small voids: all windows show a void filled as by fill_nodata(), and no other void.
+// Laws of small voids: in all windows, small voids are filled as by fill_nodata(), and other voids are not.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@ OwnedHeightField any_holes() {
   return field;
 }
 
-/// True for each sample of an enclosed void of at most `side` samples a side: by a search from each sample.
+/// True for each sample of an enclosed void of at most `side` samples per side, by a search from each sample.
 std::vector<bool> find_small(const OwnedHeightField& field, int side) {
   const int cols = field.cols, rows = field.rows;
   std::vector<bool> small(field.samples.size(), false), seen(field.samples.size(), false);

@@ -33,7 +33,7 @@ double lowest_of(const Mesh& terrain) {
   return lowest;
 }
 
-/// The part above `base`, placed on a print with a few millimetres a cell.
+/// The part above `base`, placed on a print with a few millimetres per cell.
 Placement any_placement(double base) {
   const double scale = *rc::gen::element(0.25, 1.0, 0.3, 1.7);
   return {{0, 0, base}, {scale, scale, scale * *rc::gen::element(1.0, 0.1, 2.5)}};

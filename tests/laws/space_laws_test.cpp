@@ -1,4 +1,4 @@
-// Frames in space: the judge's results for meshes on a round earth, and the promise of simplify() there.
+// Frames in space: the judge's results for meshes on a round earth, and the guarantee of simplify() there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -106,7 +106,7 @@ TEST(space, simplify_keeps_its_promise_on_a_round_earth) {
 }
 
 TEST(space, folds_are_told_and_mended) {
-  // On a parallel at 60 degrees the middle of a one-degree chord lies some 100 m to the south, beyond the next row.
+  // On a parallel at 60 degrees, the middle of a one-degree chord lies some 100 m to the south, beyond the next row.
   Field field = level(401, 401, 0);
   const double cell = 0.0025 / 4;
   field.samples[399 * 401 + 200] = 200;
@@ -159,13 +159,14 @@ TEST(space, a_refiner_sees_the_sag) {
 }
 
 TEST(space, a_smooth_earth_takes_triangles_for_its_own_curve) {
-  // 4 degrees of a level sphere: on a map two triangles would suffice at any bound.
+  // 4 degrees of a level sphere; on a map, two triangles would suffice at any bound.
   const Field field = level(401, 401, 0);
   const HeightField view = on_ball(field, 0, 4, 0.01);
   const auto made = simplify(view, {.goals = {.max_error = 20.0}});
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_LE(made->measurement.max_error, 20);
-  // An edge of s metres sags s² / 8R. A right triangle's longest may have 32 km: 775 triangles of half its height.
+  // An edge of s metres sags s² / 8R. A right triangle's longest edge may have 32 km: 775 triangles of half that
+  // height.
   EXPECT_GT(made->mesh.triangle_count(), 500u);
   EXPECT_LT(made->mesh.triangle_count(), 1500u);
 }

@@ -1,4 +1,4 @@
-// Meshes of a budget with a small squared error, and the steps to them.
+// Meshes of a budget with a small squared error, and the steps that produce them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

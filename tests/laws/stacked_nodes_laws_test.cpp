@@ -1,4 +1,4 @@
-// Laws of stacks of sources: each node has the height of the first source with one, and tiles end where no source
+// Laws of stacks of sources: each node has the height of the first source that has one, and tiles end where no source
 // requires more.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -153,7 +153,7 @@ RC_GTEST_PROP(stacked_nodes, make_tiles_that_fit_and_end_where_no_source_asks_fo
   const auto report = make_pyramid(*plan, *stack.nodes, kept, run);
   RC_ASSERT(report.has_value());
 
-  // Blocks in another order on one thread give the same.
+  // Blocks in another order on one thread give the same tiles.
   Kept again;
   std::vector<BlockReport> blocks;
   std::vector<TileId> order = find_blocks(*plan);

@@ -16,7 +16,7 @@ struct StartedTile {
   TileMesh mesh;
 };
 
-/// False without surface cells.
+/// Returns false without surface cells.
 inline bool start(const Field& field, StartedTile& started) {
   return started.tile.load(field.view(), {0, 0, field.cols, field.rows}) &&
          start_tile(started.tile, {}, started.mesh) &&

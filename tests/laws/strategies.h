@@ -34,7 +34,7 @@ inline Importance any_importance() {
   return importance;
 }
 
-/// Everything that can be combined, at a small scale.
+/// Any combination of settings, at a small scale.
 inline PaperOptions any_strategy() {
   PaperOptions options;
   options.run.threads = 1;

@@ -1,4 +1,4 @@
-// The promise holds for all choices: laws of importance, weights, tolerances, scripts, algorithms and batches.
+// The bound holds for all choices: laws of importance, weights, tolerances, scripts, algorithms and batches.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -188,7 +188,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
   RC_ASSERT(result->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
 }
 
-// The plain metric measures one field with scale 1 under one bound: the general one must agree.
+// The plain metric measures one field with scale 1 under one bound; the general metric must agree.
 RC_GTEST_PROP(metrics, the_general_one_agrees_with_the_plain_one, ()) {
   const Field field = any_field(22);
   const Raster raster = field.raster();

@@ -1,4 +1,4 @@
-// Laws of tolerances read in windows: each sample satisfies its own across all strips, and reports equal those for an
+// Laws of tolerances read in windows: in all strips, each sample satisfies its own, and reports equal those for an
 // array.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -32,7 +32,7 @@ using testing::kNoBound;
 using testing::Relief;
 using testing::with_source;
 
-/// A field and bounds, both read by windows.
+/// A field and bounds, both read in windows.
 struct Scene {
   Field field = testing::any_field(50);
   std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
@@ -53,7 +53,7 @@ struct Scene {
   }
   Scene(const Scene&) = delete;
 
-  /// The bound promised at each sample, plus the judge's arithmetic error.
+  /// The guaranteed bound of each sample, plus the judge's arithmetic error.
   std::vector<float> promised() const {
     std::vector<float> all = bounds;
     for (float& bound : all) {
@@ -85,7 +85,7 @@ void expect_kept(const Measurement& m) {
   RC_ASSERT(m.is_sound());
 }
 
-/// In strips of tiles with that side.
+/// Refines in strips of tiles with that side.
 Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
   const double most = scene.options.goals.max_error.value_or(HUGE_VAL),
                threshold = scene.options.goals.max_error.value_or(0);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(streamed_bounds, make_the_same_mesh_on_any_number_of_threads, ()) 
   RC_ASSERT(testing::is_same((*first)->domain.tin, (*again)->domain.tin));
 }
 
-/// In memory and in the public interface, with a single row: reports name the same samples.
+/// In memory and in the public interface, also with a single row, reports name the same samples.
 RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) {
   Scene scene;
   HeightField view = scene.field.view();

@@ -188,7 +188,7 @@ RC_GTEST_PROP(strip_cutlines, in_one_strip_are_those_of_a_raster_in_memory, ()) 
   const auto held = prepare_lines(scene.field.view(), scene.options.features.breaklines, scene.options.features.cutline,
                                   *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() || !held.has_value());
-  // Next to nodata the outline has a vertex at every sample.
+  // Next to nodata, the outline has a vertex at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   RC_PRE(held.has_value() && is_whole);

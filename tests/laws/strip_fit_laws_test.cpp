@@ -1,4 +1,4 @@
-// Laws of efforts with samples read by strips: the promise is that of refinement.
+// Laws of efforts with samples read by strips: the guarantee is that of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

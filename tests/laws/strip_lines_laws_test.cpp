@@ -1,4 +1,4 @@
-// Laws of lines with samples read by strips: chains of edges across all strips, with the promise of lines in memory.
+// Laws of lines with samples read by strips: chains of edges across all strips, with the guarantee of lines in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

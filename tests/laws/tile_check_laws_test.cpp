@@ -169,7 +169,7 @@ Compared expect_made_well(TileFormat format, const TileGrid& grid = {}) {
     for (const CheckedLevel& level : check.levels) {
       compared.edges += level.edges;
       EXPECT_TRUE(level.promised_bound && level.distance);
-      // Errors reach the promised ones somewhere: nodes were really checked.
+      // Errors reach the guaranteed ones somewhere, so nodes were really checked.
       if (format == TileFormat::kQuantizedMesh && &level == &check.levels.back()) {
         EXPECT_NEAR(level.node_error.value_or(-1), level.promised_node_error.value_or(-2), 1e-6);
       }
@@ -236,7 +236,7 @@ std::size_t edges_at(const Bytes& bytes) {
   return indices_at(bytes) + 6 * number_at<std::uint32_t>(bytes, indices_at(bytes) - 4);
 }
 
-/// Lifts a vertex that is on no edge by so many steps.
+/// Lifts a vertex that is on no edge by `steps` steps.
 void lift_inner_vertex(Bytes& bytes, int steps) {
   const auto mesh = *decode_quantized_mesh(bytes, "tile");
   for (std::size_t v = 0; v + 1 < mesh.u.size(); ++v) {
@@ -280,7 +280,7 @@ const Planted kPlanted[] = {
      }},
     {"a triangle turned over", TileFaultKind::kCoverage,
      [](Bytes& b) {
-       // The second triangle, two of whose corners exist already.
+       // The second triangle, which adds only one corner.
        const std::size_t at = indices_at(b);
        const auto mesh = *decode_quantized_mesh(b, "tile");
        std::vector<std::uint32_t> corners = mesh.triangles;

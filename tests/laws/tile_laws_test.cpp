@@ -98,7 +98,8 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   const Measurement judged = judge(tile, nodes, limit);
   RC_ASSERT(errors.uncovered == 0u);
   RC_ASSERT(std::abs(errors.largest - judged.max_error) <= 1e-9 * (1 + judged.max_error));
-  // Both name a triangle's worst node; the worst node of two triangles may be named once or twice.
+  // The scan and the judge name each triangle's worst node; they may name the worst node of two triangles once or
+  // twice.
   const auto places = [](const auto& nodes) {
     std::set<std::pair<std::int32_t, std::int32_t>> all;
     for (const auto& node : nodes) all.insert({node.row, node.col});
@@ -126,7 +127,7 @@ RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bou
   const double asked = plan.levels[static_cast<std::size_t>(z)].max_error;
   RC_ASSERT(kept->tile.max_error >= asked);
   if (free->bytes.size() <= plan.max_tile_bytes) RC_ASSERT(kept->bytes == free->bytes);
-  // A tile that exceeds the limit has nothing more to omit.
+  // A tile that exceeds the limit contains nothing that may be omitted.
   if (kept->bytes.size() > plan.max_tile_bytes) {
     plan.max_tile_bytes = 1;
     const auto least = make_tile(plan, id, land, encode);
@@ -242,8 +243,8 @@ TEST(grid_laws, a_raster_beyond_the_grids_end_is_refused_and_one_across_it_is_cu
   const auto across = plan_pyramid(SourceFacts{{10, 80, 20, 89}, 1000, 0, 100}, settings);
   ASSERT_TRUE(across);
   EXPECT_EQ(across->covered.north, settings.grid.bounds().north);
-  // The error is twice, and the tiles across are half, those of the geographic grid's level: equal resolution is one
-  // level finer.
+  // At a level, the error is twice that of the geographic grid, and half as many tiles are across: equal resolution is
+  // one level finer.
   EXPECT_EQ(settings.grid.geometric_error(5), TileGrid{}.geometric_error(4));
   const SourceFacts equator{{10, -1, 20, 1}, 30, 0, 100};
   const auto web = plan_pyramid(equator, settings), degrees = plan_pyramid(equator);
@@ -287,7 +288,7 @@ TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
         for (int b = 0; a + b <= 8; ++b) {
           const Space p =
               sum(sum(scaled(corners[0], a / 8.0), scaled(corners[1], b / 8.0)), scaled(corners[2], (8 - a - b) / 8.0));
-          // Depth below the ellipsoid towards the centre, less than along the vertical.
+          // Depth below the ellipsoid towards the centre, which is less than along the vertical.
           const double f = 1 / 298.257223563, polar = 6378137 * (1 - f);
           const double scale =
               std::sqrt((p[0] * p[0] + p[1] * p[1]) / (6378137.0 * 6378137.0) + p[2] * p[2] / (polar * polar));

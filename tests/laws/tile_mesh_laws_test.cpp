@@ -1,4 +1,4 @@
-// The workbench of a tile against the flipping one: the same triangulation of the same points.
+// The mesh of a tile against the flipping triangulation: the same triangles for the same points.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

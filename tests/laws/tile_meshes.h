@@ -17,9 +17,9 @@
 
 namespace scarp::testing {
 
-/// The first broken law, "" if none: (1) links are mutual, along the same edge, constraints agree; (2) triangles are
-/// positive; (3) edges without a neighbour lie on the rectangle's border; (4) the areas add up to the rectangle and V −
-/// E + F = 1; (5) locally Delaunay except across constraints; (6) outside changes only across constraints.
+/// The first broken law, "" if none: (1) links are mutual, along the same edge, and constraints agree; (2) triangles
+/// are positive; (3) edges without a neighbour lie on the rectangle's border; (4) the areas add up to the rectangle and
+/// V − E + F = 1; (5) locally Delaunay except across constraints; (6) outside changes only across constraints.
 inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std::int32_t rows) {
   std::int64_t area2 = 0;
   std::size_t border = 0;
@@ -56,7 +56,7 @@ inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std
   return "";
 }
 
-/// A triangle by its points, the smallest first, and whether it is outside.
+/// A triangle: its points, the smallest first, and its outside mark.
 using NamedTriangle = std::array<TilePoint, 4>;
 
 inline NamedTriangle name_triangle(std::array<TilePoint, 3> corners, bool outside) {
@@ -83,7 +83,7 @@ inline std::vector<NamedTriangle> triangles_of(const Triangulation& tin) {
   return triangles;
 }
 
-/// True if four corners around a free edge lie on a circle: then the Delaunay triangulation is not unique.
+/// True if four corners around a free edge lie on a circle, so that the Delaunay triangulation is not unique.
 inline bool has_ties(const Triangulation& tin) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (tin.twin(h) == kNone || tin.is_constrained(h)) continue;
@@ -110,8 +110,8 @@ inline std::int64_t outside_area2(const Triangulation& tin) {
   return area2;
 }
 
-/// True if a height of the triangle's plane, a mean of its corners' heights, is within the threshold by more than a few
-/// roundings. Exact arithmetic fails where magnitudes differ extremely.
+/// True if the triangle's plane, a mean of the corners' heights, is within the threshold of the sample by more than a
+/// few roundings. Exact arithmetic fails if magnitudes differ extremely.
 inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p,
                             double sample, double threshold) {
   double sum = 0, magnitude = std::abs(sample);
@@ -163,7 +163,7 @@ inline std::string find_broken_bound(const Raster& raster, const Triangulation& 
   return "";
 }
 
-/// A slope in float32: only rounding distinguishes its samples from a plane.
+/// A slope in float32 whose samples differ from a plane only by rounding.
 inline Field sloping_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };

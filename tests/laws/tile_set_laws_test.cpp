@@ -217,7 +217,7 @@ TEST(tile_sets, what_is_there_stays) {
     fs::create_directory(scratch.path("folder" + ending));
     EXPECT_FALSE(write_set(set, scratch.path("folder" + ending), true));
   }
-  // A set that was created meanwhile.
+  // A set that another program created meanwhile.
   for (const std::string& ending : kEndings) {
     const std::string path = scratch.path("late" + ending);
     auto writer = create_tile_set(path, set.format, true);
@@ -300,7 +300,7 @@ TEST(tile_sets, damaged_ones_are_refused_or_read_without_harm) {
     for (int trial = 0; trial < trials; ++trial) {
       Bytes bytes = whole;
       if (trial % 3 == 0) bytes.resize(random() % bytes.size());
-      // Headers and directories, at either end, are hit more often.
+      // Changes headers and directories, at either end, more often.
       for (int k = 0; k < 1 + trial % 4 && !bytes.empty(); ++k) {
         const std::size_t range = k % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 512);
         const std::size_t at = trial % 2 == 0 ? random() % range : bytes.size() - 1 - random() % range;

@@ -1,4 +1,4 @@
-// Laws of tiles and the samples of their source: claims about samples hold at each one's own place.
+// Laws of tiles and the samples of their source: claims about samples hold at each sample's own place.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -81,7 +81,7 @@ struct Land {
   const NodeSource& source() const { return raised ? *raised : *plain; }
 };
 
-/// The largest error at samples that count, by brute force: every sample, every triangle.
+/// The largest error at samples that count, by brute force: every sample against every triangle.
 double brute_force(const TerrainTile& tile, std::int32_t steps, const Land& land) {
   const TileGrid grid;
   const DegreeBox box = grid.bounds_of(tile.id);
@@ -134,7 +134,7 @@ PyramidPlan plan_of(int finest, Effort effort) {
   return *plan_pyramid(facts, settings);
 }
 
-/// Next to cliffs, rounding of a place changes a height, as does interpolation between exact places.
+/// Next to cliffs, rounding of a place changes a height; interpolation between exact places also does.
 double allowance(bool is_squeezed) { return is_squeezed ? 1.0 : 1e-3; }
 
 TEST(tile_source_laws, samples_that_are_bound_are_nearer_and_land_that_nodes_can_follow_keeps_the_max_error) {

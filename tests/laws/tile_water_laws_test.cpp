@@ -101,7 +101,7 @@ RC_GTEST_PROP(tile_water_laws, a_node_is_the_same_in_every_window, ()) {
     NodeWindow part{kTurn / stride, whole.col / stride + col, whole.row / stride + row, 0, 0};
     part.cols = *rc::gen::inRange(1, steps - col + 1);
     part.rows = *rc::gen::inRange(1, steps - row + 1);
-    // Another turn is the same place.
+    // A further turn gives the same place.
     part.col += *rc::gen::element<std::int64_t>(-1, 0, 1) * part.per_turn;
     std::vector<float> some(static_cast<std::size_t>(part.cols) * static_cast<std::size_t>(part.rows));
     RC_ASSERT(nodes->read(part, some).has_value());

@@ -1,4 +1,4 @@
-// The tiled engine: pieces form one triangulation, which keeps the greedy engine's promise.
+// The tiled engine: pieces form one triangulation, which satisfies the greedy engine's guarantee.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -105,7 +105,7 @@ TiledOptions any_options() {
   return options;
 }
 
-/// A free edge that is not Delaunay though both triangles of the other diagonal would satisfy the bound; "" if none.
+/// A free edge that is not Delaunay although both triangles of the other diagonal would satisfy the bound; "" if none.
 std::string find_needless_edge(const Triangulation& tin, const ErrorMetric& metric) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     const HalfEdge g = tin.twin(h);

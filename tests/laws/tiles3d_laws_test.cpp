@@ -65,7 +65,7 @@ class Land final : public NodeSource {
   double relief_;
 };
 
-/// A GLB tile as clients decode it, turned back to z up.
+/// A GLB tile as decoded by clients, rotated back to z up.
 struct Decoded {
   std::vector<Point> positions;
   std::vector<std::array<float, 3>> normals;
@@ -93,7 +93,7 @@ class TileReader {
     const Json& positions = json_["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     const bool is_short = positions["componentType"] == 5123;
     const std::vector<std::uint8_t> items = bytes_of(positions);
-    // The number over 65535 times the scale: the scale is 65535 steps.
+    // The decoded value is number / 65535 times the scale, so the scale is 65535 steps.
     const double step = is_short ? scale / 65535 : scale;
     EXPECT_EQ(std::ldexp(1.0, std::ilogb(step)), step) << "no power of two";
     for (std::size_t v = 0; v < positions["count"]; ++v) {
@@ -302,7 +302,7 @@ TEST(tiles3d_laws, uncompressed_tiles_have_the_same_triangles) {
       for (std::size_t k = 0; k < from.triangles.size(); k += 3) {
         std::array<Point, 3> corners{};
         for (std::size_t c = 0; c < 3; ++c) corners[c] = from.positions[from.triangles[k + c]];
-        // At a pole two corners of a triangle coincide: uses the least of its three orders.
+        // At a pole, two corners of a triangle coincide: uses the least of the triangle's three orders.
         std::array<Point, 3> least = corners;
         for (int turn = 0; turn < 2; ++turn) {
           std::rotate(corners.begin(), corners.begin() + 1, corners.end());

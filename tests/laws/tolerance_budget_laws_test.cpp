@@ -1,5 +1,5 @@
-// Budgets with individual bounds of samples: sufficient budgets satisfy them; otherwise one factor gives the bound that
-// every sample satisfies.
+// Budgets with individual bounds of samples: sufficient budgets satisfy the bounds; otherwise every sample satisfies
+// its bound times one factor.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -114,7 +114,7 @@ RC_GTEST_PROP(tolerance_budget, effort_is_never_worse_than_insertion, ()) {
   }
   if (fast->stop == StopReason::kMaxError) {
     RC_ASSERT(made->stop == StopReason::kMaxError);
-    // For the squared error bounds are only a cap, and the whole budget is useful, unless samples are streamed.
+    // For the squared error, bounds are only a cap, and the whole budget is useful, unless samples are streamed.
     const bool has_no_more = made->mesh.triangle_count() <= fast->mesh.triangle_count();
     const bool is_better =
         scene.options.goals.objective == Objective::kRms && made->judged_rmse <= fast->judged_rmse;
@@ -236,7 +236,7 @@ TEST(tolerance_budget, that_has_room_for_the_tolerances_ends_with_them) {
   options.tolerances.values = bounds;
   const auto bounded = *simplify(field.view(), options);
   options.quality.effort = Effort::kFast;
-  // Fewer than insertion needs for them, so that the search must find out.
+  // Fewer triangles than insertion needs for the bounds, so that a search is necessary.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), options)->mesh.triangle_count());
   options.goals.max_triangles = budget;

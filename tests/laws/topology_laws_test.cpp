@@ -1,4 +1,4 @@
-// The border alone gives the same overlaps and T-junctions as the search over all triangles.
+// The border gives the same overlaps and T-junctions as the search over all triangles.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +31,7 @@ Counts count(const Mesh& mesh, const judge::Connections& connections) {
           judge::count_t_junctions(mesh, connections), connections.edges.loops, connections.edges.open.size()};
 }
 
-/// Compares the border, if it suffices, with the search over all. Returns whether it sufficed.
+/// Compares the border, if it suffices, with the search over all triangles. Returns true if it sufficed.
 bool expect_agreement(const Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!looks_up(mesh, t)) return false;
@@ -45,7 +45,7 @@ bool expect_agreement(const Mesh& mesh) {
   return quick.is_single_layer;
 }
 
-/// A ramp of `turns` around a column, each step a pair of triangles; its radius grows by `outwards` a turn.
+/// A ramp of `turns` around a column, each step a pair of triangles. The radius grows by `outwards` per turn.
 Mesh spiral(double turns, double outwards, double width, double tilt) {
   Mesh mesh;
   const int steps = std::max(3, static_cast<int>(turns * 40));

@@ -1,4 +1,4 @@
-// Every set of kernels that scan trial triangles gives the bits of the scalar one, for all samples and triangles.
+// Every set of kernels that scan trial triangles gives the bits of the scalar set, for all samples and triangles.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

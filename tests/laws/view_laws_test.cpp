@@ -1,4 +1,5 @@
-// Laws of views: several rasters as one, parts, and coarser cells have the values of the rasters, sample by sample.
+// Laws of views: several rasters as one raster, parts, and coarser cells have the values of the rasters, sample by
+// sample.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The metadata of a raster's one band.
+/// The metadata of a raster's only band.
 struct Said {
   std::string type = "Float32", unit;
   double scale = 1, offset = 0;
@@ -94,7 +95,7 @@ Said any_said() {
   said.unit = *rc::gen::elementOf(std::vector<std::string>{"", "m", "metre", "ft", "US survey foot", "fathom"});
   std::tie(said.scale, said.offset) =
       *rc::gen::elementOf(std::vector<std::pair<double, double>>{{1, 0}, {1, 0}, {0.1, 0}, {0.3048, -20}, {-2, 1000}});
-  // Some equal values, and some are not values of the type.
+  // Some nodata values are equal, and some are not values of the type.
   const double nodata =
       *rc::gen::elementOf(std::vector<double>{-1, 0, 3, 7, -9999, 255, 4e9, -3.4028234663852886e38, kNone});
   if (*rc::gen::arbitrary<bool>()) said.nodata = nodata;
@@ -147,7 +148,7 @@ void expect_one_said(const RasterInfo& view, const RasterInfo& raster) {
   RC_ASSERT(view.scale == raster.scale);
   RC_ASSERT(view.offset == raster.offset);
   RC_ASSERT(view.nodata.has_value() == raster.nodata.has_value());
-  // GDAL changes values next to the largest float to it; nodata there is compared by magnitude.
+  // GDAL changes values next to the largest float to that float; such nodata is compared by magnitude.
   const auto moved = [](double nodata) { return std::abs(nodata) < 3.4e38 ? nodata : double{static_cast<float>(nodata)}; };
   if (view.nodata) RC_ASSERT(text(moved(*view.nodata)) == text(moved(*raster.nodata)));
 }

@@ -1,8 +1,8 @@
 // Volumes against an oracle that clips nothing: it sweeps a line over both surfaces.
 //
-// Between two neighbours of all abscissas where a side ends, two sides cross, or the line where two planes meet crosses
-// a side, the length of the sweeping line in a triangle, and what lies above and below on it, are polynomials of degree
-// 2 at most, which Simpson's rule integrates exactly.
+// The abscissas of interest: a side ends, two sides cross, or the line where two planes meet crosses a side. Between
+// two neighbouring ones, the length of the sweeping line in a triangle, and the areas above and below on it, are
+// polynomials of degree 2 at most, which Simpson's rule integrates exactly.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -143,7 +143,7 @@ Sweep sweep_over(const Sheet& from, const Sheet& to) {
   for (std::size_t k = 0; k + 1 < abscissas.size(); ++k) {
     const Long left = abscissas[k], width = abscissas[k + 1] - left;
     if (!(width > 0)) continue;
-    // Gauss' two points are inside, where no section is doubtful, and exact for degree 3.
+    // Gauss' two points lie inside, where no section is ambiguous, and are exact for degree 3.
     const Long off = width / 2 * (1 - 1 / std::sqrt(3.0L));
     for (const Long x : {left + off, left + width - off}) {
       const Sweep at = sweep_at(from, to, x);
@@ -155,7 +155,7 @@ Sweep sweep_over(const Sheet& from, const Sheet& to) {
   return sums;
 }
 
-/// A triangulation of random points; nothing if they have none.
+/// A triangulation of random points; none if they have none.
 std::optional<Mesh> any_sheet(testing::Scatter scatter) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const int count = 3 + static_cast<int>(seed % 23);

@@ -1,5 +1,5 @@
-// Laws of lakes: each sample is the result of all lakes in order; flat areas are those of a flood fill; streamed
-// samples give the same as memory.
+// Laws of lakes: each sample is the result of all lakes in order; flat areas equal those of a flood fill; streamed
+// samples equal samples in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -39,7 +39,7 @@ OwnedHeightField in_memory(const Field& field) {
   return owned;
 }
 
-/// The same by windows.
+/// The same field, read in windows.
 OwnedHeightField in_source(const Field& field) {
   OwnedHeightField owned = in_memory(field);
   owned.samples.clear();
@@ -287,7 +287,7 @@ Field terrace() {
   return field;
 }
 
-/// Number of triangles at this height with their centre in a box, rows counted from above.
+/// Number of triangles at height `level` with their centre in a box; rows count from above.
 std::size_t count_level(const Mesh& mesh, const Field& field, std::array<double, 4> box, double level) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {

@@ -1,5 +1,6 @@
 // Reads a 3MF file with the 3MF consortium's library and prints a line for each object, "vertices triangles manifold";
-// the last is 1 if the library calls it manifold and oriented. Exit code 1 with its error, 2 with warnings.
+// the last is 1 if the library calls the object manifold and oriented. Exit code 1 on an error of the library, 2 on
+// warnings.
 #include <Model/COM/NMR_DLLInterfaces.h>
 
 #include <cstdio>

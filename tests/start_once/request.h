@@ -1,5 +1,5 @@
-// Between client.c and server.c: a program is loaded once, and main() runs for each request in a copy of the process.
-// Loading GDAL's libraries, more than a hundred, costs 40 to 100 ms of CPU time, as much as a small mesh.
+// Shared by client.c and server.c: a program is loaded once, and main() runs for each request in a copy of the process.
+// Loading GDAL's more than a hundred libraries costs 40 to 100 ms of CPU time, as much as a small mesh.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,8 @@
 #include <string.h>
 #include <sys/resource.h>
 
-// The path of a program's socket: the variable SCARP_START_ONCE, a dot, and the program's file name. 0 without one.
+// The path of a program's socket: the variable SCARP_START_ONCE, a dot, and the program's file name. Returns 0 without
+// the variable.
 static inline int name_socket(const char* program, char* path, size_t size) {
   const char* before = getenv("SCARP_START_ONCE");
   const char* slash = strrchr(program, '/');
@@ -19,9 +20,9 @@ static inline int name_socket(const char* program, char* path, size_t size) {
 
 enum { kMostFiles = 250, kLimits = 16 };
 
-// A request, with the open files as ancillary data. `size` bytes follow: words, each ended by a zero byte: the program,
-// the arguments, and the environment. The answer is the status of wait(), in 4 bytes. Each byte that the client sends
-// meanwhile is a signal for the copy, which is killed if the client ends.
+// A request, with the open files as ancillary data. `size` bytes follow: the program, the arguments and the environment
+// as words, each ended by a zero byte. The answer is the status of wait(), in 4 bytes. Until then, each byte from the
+// client is a signal for the copy, which is killed if the client ends.
 struct Request {
   uint32_t size;
   uint32_t words;

@@ -71,7 +71,7 @@ TEST(DrawGouraud, InterpolatesAsTheJudgeDoesWithinHalfAByte) {
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) channel.positions[3 * v + 2] = mesh.colors[3 * v + k];
     const auto wanted = resample(terrain.view(), channel);
     ASSERT_TRUE(wanted);
-    // Samples on an edge are equal from both sides, so the judge's choice between them is irrelevant.
+    // Samples on an edge are equal from both sides, so the judge's choice of a side is irrelevant.
     for (std::size_t i = 0; i < wanted->size(); ++i) {
       ASSERT_NEAR(drawn.rgb[3 * i + k], (*wanted)[i], 0.5001) << i % 61 << " " << i / 61;
     }
@@ -230,7 +230,7 @@ TEST(DrawGouraud, APhotoByItsMesh) {
   color_by_channels(mesh, *photo);
   const Picture drawn = draw_gouraud(green, mesh), given = draw_channels(*photo);
   for (std::size_t i = 0; i < given.rgb.size(); i += 3) {
-    ASSERT_LE(std::abs(drawn.rgb[i + 1] - given.rgb[i + 1]), 20);  // the promise was about green
+    ASSERT_LE(std::abs(drawn.rgb[i + 1] - given.rgb[i + 1]), 20);  // the bound was about green
   }
   EXPECT_GT(find_psnr(drawn, given), 25);
 }

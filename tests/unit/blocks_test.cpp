@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Empties the shelf except for a small block: the oldest go first.
+/// Empties the shelf except for a small block; the oldest blocks leave first.
 void empty_shelf() {
   for (std::size_t bytes = 0; bytes < kMostKept; bytes += kLargestKept)
     leave_block({std::malloc(kLargestKept), kLargestKept});

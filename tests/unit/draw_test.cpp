@@ -1,4 +1,4 @@
-// Pictures: sizes, meaningful colours, lines at the mesh's edges.
+// Pictures: sizes, colours with a meaning, lines at the mesh's edges.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -37,7 +37,7 @@ TEST(exact_error, answers_true_where_128_bits_do_not_suffice) {
   EXPECT_TRUE(exceeds_exactly(kCorners, heights, {1, 1}, 0, 1e30));
 }
 
-// The guard of a plane bounds its rounding: outside it doubles and integers agree.
+// The guard of a plane bounds its rounding: outside the guard, doubles and integers agree.
 RC_GTEST_PROP(exact_error, agrees_with_doubles_outside_the_guard, ()) {
   const auto side = *rc::gen::element(5, 500, 40000);
   const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };

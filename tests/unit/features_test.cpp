@@ -1,4 +1,4 @@
-// Declared features: the lines of a mesh with one max error.
+// Declared features: lines of a mesh with one max error.
 #include "scarp/features.h"
 
 #include <gtest/gtest.h>

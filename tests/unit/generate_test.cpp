@@ -137,7 +137,7 @@ TEST(Generate, RefusesSizesThatCannotBe) {
   }
 }
 
-/// Computed once on x86-64; another machine or compiler must agree.
+/// These values were computed once on x86-64; other machines and compilers must agree.
 TEST(Generate, AreTheSameOnEveryMachine) {
   const std::uint64_t expected[] = {0x07236e676c5752e5u, 0x7a4a2cde17981db5u, 0x153178116f503a65u, 0xdc2607a9a18ca2e0u,
                                     0xe6de102790d4bbbdu, 0xafa32ac9357cab95u, 0x6f19763335c95155u, 0x21337109063ce584u,

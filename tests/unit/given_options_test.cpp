@@ -104,7 +104,7 @@ TEST(GivenOptions, TheCanonicalCommandNamesFilesWithoutFoldersAndOmitsDefaults) 
             " --max-error 1 --cutline b.gpkg,inset=2");
 }
 
-/// Parsing the canonical command gives the same command: for each option alone.
+/// For each single option, parsing the canonical command gives the same command.
 TEST(GivenOptions, TheCanonicalCommandIsAFixedPoint) {
   for (const OptionRow* row : rows_with_values()) {
     GivenOptions given(kSimplify);
@@ -172,7 +172,7 @@ bool names(const std::string& sentence, Commands command, OptionId id) {
          sentence.find(find_option(command, id)->name) != std::string::npos;
 }
 
-/// Each rule refuses its options with both names in the message, and passes without.
+/// Each rule refuses its options with both names in the message, and passes without these options.
 TEST(OptionRules, EachRefusesWhatItNames) {
   for (const OptionRule& rule : option_rules()) {
     if (rule.kind == OptionRule::Kind::kAllows) continue;
@@ -196,7 +196,7 @@ TEST(OptionRules, EachRefusesWhatItNames) {
   }
 }
 
-/// A rule that allows some options refuses all others of the command, but for those of how the run behaves.
+/// A rule that allows some options refuses all other options of the command, except options of run behaviour.
 TEST(OptionRules, EachAllowsWhatItNames) {
   int rules = 0, refused = 0;
   for (const OptionRule& rule : option_rules()) {

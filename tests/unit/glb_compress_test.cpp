@@ -1,4 +1,4 @@
-// GLB with KHR_mesh_quantization and EXT_meshopt_compression: ours and other programs'.
+// GLB with KHR_mesh_quantization and EXT_meshopt_compression, by Scarp and other programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -212,7 +212,7 @@ TEST(GlbCompression, RefusesHostileStreams) {
   }
 }
 
-/// A file of three vertices as written by other programs.
+/// A file of three vertices, as other programs write it.
 Bytes foreign(const json& position, const Bytes& stream, const json& packing, const json& node) {
   json j;
   j["asset"]["version"] = "2.0";

@@ -1,4 +1,4 @@
-// GLB files split and joined again.
+// Splits and joins GLB files.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// LAS and LAZ files made by tests, of points that tests know.
+// Writes LAS and LAZ files of known points for tests.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void put(Bytes& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// A point with the fields of all formats; `channel` and what follows of formats 6 to 10 alone.
+/// A point with the fields of all formats; `channel` and the following fields are only in formats 6 to 10.
 struct FilePoint {
   las::LasPoint point;
   std::uint8_t channel = 0;
@@ -67,7 +67,7 @@ struct LasFile {
     return bytes;
   }
 
-  /// The header and the records behind it. `compressed`: the bit of LAZ.
+  /// The header and the records after it. `compressed`: sets the bit of LAZ.
   Bytes head(bool compressed = false) const {
     Bytes bytes(minor_version == 4 ? 375 : minor_version == 3 ? 235 : 227);
     std::memcpy(bytes.data(), "LASF", 4);
@@ -105,7 +105,7 @@ struct LasFile {
   }
 };
 
-/// Keeps the statistics of one chunk of formats 0 to 5: POINT10, BYTE and the others as if nothing changed in them.
+/// The statistics of one chunk of formats 0 to 5: POINT10 and BYTE; the other fields as if they never changed.
 class PointwiseChunk {
  public:
   explicit PointwiseChunk(const LasFile& file) : file_(file) {}
@@ -170,7 +170,7 @@ class PointwiseChunk {
   std::array<std::int32_t, 8> heights_{};
 };
 
-/// The same of formats 6 to 10: the layers of places, heights, classes and flags.
+/// The same for formats 6 to 10: the layers of places, heights, classes and flags.
 class LayeredChunk {
  public:
   explicit LayeredChunk(const LasFile& file) : file_(file) {}
@@ -265,8 +265,8 @@ class LayeredChunk {
   std::size_t now_ = 0;
 };
 
-/// LAZ with chunks that end before these points; the last one ends with the points. `is_varying`: the table has the
-/// number of points of each, else all have as many as the first.
+/// LAZ with chunks that end before the points `ends`; the last chunk ends with the points. `is_varying`: the table has
+/// the number of points of each chunk; else all chunks have as many as the first.
 inline Bytes make_laz(LasFile file, const std::vector<std::size_t>& ends, bool is_varying) {
   const std::uint16_t version = file.is_extended() ? 3 : 2;
   VariableRecord record{"laszip encoded", 22204, Bytes(34)};

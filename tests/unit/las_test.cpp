@@ -1,4 +1,4 @@
-// LAS and LAZ: files that the tests make, of every format, and pairs from other writers where the shared folder is.
+// LAS and LAZ: files of every format made by the tests, and pairs from other writers if the shared folder exists.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using testing::FilePoint;
 using testing::LasFile;
 using testing::put;
 
-/// Reads what lies in memory.
+/// Reads a file in memory.
 Result<las::Points> decode(const Bytes& bytes, const las::Selection& selection = {}, int threads = 1) {
   const auto read = [&](std::uint64_t offset, std::span<std::uint8_t> into) {
     EXPECT_LE(offset + into.size(), bytes.size());
@@ -44,7 +44,7 @@ std::string fault_of(const Bytes& bytes) {
   return points ? "" : points.error().message;
 }
 
-/// Points of a walk with several returns, classes and channels; everything that a format can hold.
+/// Points of a walk with several returns, classes and channels: everything that a format can store.
 std::vector<FilePoint> make_points(std::size_t count, std::uint8_t format) {
   std::mt19937 random(format + 1);
   const auto any = [&](std::uint32_t below) { return static_cast<std::uint8_t>(random() % below); };
@@ -142,7 +142,7 @@ TEST(Las, coordinates_are_the_doubles_nearest_to_the_decimals) {
   EXPECT_EQ(las::DecimalAxis(1e-5, 2014969.123479005)(123456789), 2016203.691369005);
   EXPECT_EQ(las::DecimalAxis(1e-30, 0)(1), 1e-30);
   EXPECT_EQ(las::DecimalAxis(1e200, 1e210)(2), std::fma(2, 1e200, 1e210));
-  // Against text, with more digits than a double has.
+  // Compares with text that has more digits than a double.
   std::mt19937 random(1);
   for (int k = 0; k < 2000; ++k) {
     const auto i = static_cast<std::int32_t>(random());
@@ -202,7 +202,7 @@ TEST(Las, a_selection_counts_each_point_once) {
   EXPECT_GT(wanted.withheld * wanted.other_classes * wanted.overlap * wanted.other_returns * wanted.used, 0U);
 }
 
-/// A sentence that names the file, for every beginning of a file but all of it.
+/// Expects an error that names the file for every proper prefix of a file.
 void expect_sentences_of_prefixes(const Bytes& bytes) {
   ASSERT_EQ(fault_of(bytes), "");
   for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -401,7 +401,7 @@ TEST(LasShared, pairs_have_the_same_points) {
   if (files.empty()) GTEST_SKIP() << "the shared files are not here";
   int pairs = 0;
   for (const std::string& las : files) {
-    const bool is_simple = las.ends_with("pdal_simple.las");  // its pair is of the first version of the compressor
+    const bool is_simple = las.ends_with("pdal_simple.las");  // its pair is from the first version of the compressor
     const std::string laz =
         las.substr(0, las.size() - 4) + (is_simple ? "-laszip-compressor-version-1.2r0.laz" : ".laz");
     if (!las.ends_with(".las") || !std::filesystem::exists(laz)) continue;
@@ -423,7 +423,7 @@ TEST(LasShared, points_fill_the_box_of_the_header) {
   for (const std::string& path : files) {
     SCOPED_TRACE(path);
     if (contains(path, "spurious") || contains(path, "pdal_lone-star.laz") || contains(path, "no-points"))
-      continue;  // headers with other boxes
+      continue;  // headers with different boxes
     const Bytes bytes = bytes_of(path);
     const auto read = [&](std::uint64_t offset, std::span<std::uint8_t> into) {
       std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), into.size(), into.begin());
@@ -460,7 +460,7 @@ TEST(LasShared, copc_has_the_points_of_its_laz) {
   };
   EXPECT_EQ(sorted(*laz), sorted(*copc));
 
-  // Its octree excludes chunks, and no point of a rectangle.
+  // Its octree excludes chunks, but no point of a rectangle.
   const Bytes bytes = bytes_of(folder + "pdal_lone-star.copc.laz");
   std::uint64_t read_bytes = 0;
   const auto read = [&](std::uint64_t offset, std::span<std::uint8_t> into) {

@@ -40,7 +40,7 @@ class LineFiles : public ::testing::Test {
     ADD_FAILURE() << lines.error().message;
     return {};
   }
-  /// The one-line message, which names the file.
+  /// Returns the one-line message, which must name the file.
   std::string refuse(const std::string& path, const ReadLinesOptions& options = {},
                      ErrorKind kind = ErrorKind::kInput) {
     const auto lines = read_lines(path, options);

@@ -1,4 +1,4 @@
-// Live fields: what they refuse, failures that change nothing, and slots.
+// Live fields: refusals, failures that change nothing, and slots.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -46,8 +46,8 @@ inline void add_vertex(Mesh& mesh, const Frame& frame, double col, double row, d
   mesh.positions.insert(mesh.positions.end(), {x - mesh.origin[0], y - mesh.origin[1], height - mesh.origin[2]});
 }
 
-/// All grid cells whose sides are multiples of `step`, two triangles each, counter-clockwise from above. REQUIRES: cols
-/// − 1 and rows − 1 are multiples of step; no nodata at vertices.
+/// All grid cells of side `step`, two triangles each, counter-clockwise from above. REQUIRES: cols − 1 and rows − 1 are
+/// multiples of step; no nodata at vertices.
 inline Mesh grid_mesh(const Terrain& terrain, int step) {
   Mesh mesh;
   const int nc = (terrain.cols - 1) / step + 1, nr = (terrain.rows - 1) / step + 1;

@@ -48,7 +48,7 @@ OracleTriangle oracle_triangle(const Terrain& terrain, const Mesh& mesh, std::si
 
 Long cross(Long ax, Long ay, Long bx, Long by) { return ax * by - ay * bx; }
 
-/// Weights of the corners at p, positive inside for both orientations; nothing for a triangle without area.
+/// Weights of the corners at p, positive inside for both orientations; none for a triangle without area.
 std::optional<std::array<Long, 3>> weights(const OracleTriangle& t, Long px, Long py) {
   const Long area = cross(t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0]);
   if (area == 0) return std::nullopt;
@@ -71,7 +71,8 @@ Long distance_outside(const OracleTriangle& t, Long px, Long py) {
   return least;
 }
 
-/// Thinner than the tolerance: next to it the judge uses the nearest point, the oracle is undecided.
+/// True if thinner than the tolerance: next to such a triangle, the judge uses the nearest point, and the oracle is
+/// undecided.
 bool is_sliver(const OracleTriangle& t) {
   const Long area = std::abs(cross(t.x[1] - t.x[0], t.y[1] - t.y[0], t.x[2] - t.x[0], t.y[2] - t.y[0]));
   Long longest = 0;
@@ -273,7 +274,7 @@ TEST(Measure, AgreesWithTheOracleOnTriangleSoup) {
     options.run.threads = 1 + round % 3;
     expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     terrain.frame = dress_up(terrain.frame);
-    // Noise may put a sample on a common side into only one of two triangles: heights of a soup then differ.
+    // Noise may put a sample on a common side into only one of two triangles; heights of a soup then differ.
     if (round % 2 == 1) expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     if (HasFatalFailure()) return;
   }
@@ -320,7 +321,7 @@ TEST(Measure, FindsThatAFullMeshReproducesEverySample) {
   }
 }
 
-// A tilted plane has no error, though no weight times height is a round number.
+// A tilted plane has no error, although no weight times height is a round number.
 TEST(Measure, RoundsErrorsCorrectly) {
   Terrain terrain = wavy_terrain(31, 31);
   for (int r = 0; r < 31; ++r) {

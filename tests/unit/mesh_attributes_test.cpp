@@ -1,4 +1,4 @@
-// Uvs, colours and channels through every format that can hold them.
+// Uvs, colours and channels in every format that can store them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

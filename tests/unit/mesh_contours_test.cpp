@@ -83,7 +83,7 @@ TEST(MeshContours, AreThePiecesOfAllTriangles) {
     }
     for (int k = -8; k <= 8; ++k) {
       auto wanted = segments_by_triangle(mesh, k * interval);
-      // A single edge at the height with lower ground around it occurs in both directions.
+      // A single edge at the height, with lower ground around it, occurs in both directions.
       for (auto segment = wanted.begin(); segment != wanted.end();) {
         const auto back = wanted.find({segment->second, segment->first});
         const bool is_omitted = back != wanted.end() && found[k * interval].count(*segment) == 0;
@@ -135,7 +135,7 @@ TEST(MeshContours, TreatVerticesAtTheHeightAsAboveIt) {
   const auto ridge = at_1({{0, 0, 0, 0, 0}, {0, 1, 1, 1, 0}, {0, 0, 0, 0, 0}});
   ASSERT_EQ(ridge.size(), 1u);
   EXPECT_TRUE(ridge[0].is_closed);
-  EXPECT_EQ(ridge[0].points.size(), 4u);  // there and back
+  EXPECT_EQ(ridge[0].points.size(), 4u);  // in both directions
 }
 
 TEST(MeshContours, LieWhereTheMeshDoes) {

@@ -1,4 +1,5 @@
-// Promises of all mesh formats: damage is detected or harmless, never a crash; an error is one message with the name.
+// Guarantees of all mesh formats: damage is detected or harmless, and never causes a crash; an error is one message
+// with the file's name.
 
 #include <gtest/gtest.h>
 

@@ -74,7 +74,7 @@ TEST(OptimizeOrder, IsDeterministicAndNumbersVerticesByFirstUse) {
 }
 
 TEST(OptimizeOrder, HelpsTheVertexCache) {
-  const auto misses = [](const Mesh& mesh) {  // first in, first out, 16 vertices
+  const auto misses = [](const Mesh& mesh) {  // a cache of 16 vertices, first in, first out
     std::vector<std::size_t> entered(mesh.vertex_count(), 0);
     std::size_t clock = 17, count = 0;
     for (const std::uint32_t vertex : mesh.triangles) {

@@ -58,7 +58,7 @@ inline Mesh sample_mesh(bool normals = false) {
   return mesh;
 }
 
-/// Gives each vertex uvs, a colour and `channels` further values, none equal to its neighbour's.
+/// Gives each vertex uvs, a colour and `channels` further values, all different from its neighbour's.
 inline void add_attributes(Mesh& mesh, int channels) {
   mesh.channel_count = channels;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {

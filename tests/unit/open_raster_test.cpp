@@ -42,7 +42,7 @@ std::vector<std::uint32_t> bits_of(const HeightField& field) {
   return bits;
 }
 
-/// Opens with room for floats, for codes, or for nothing: all must equal read_height_field().
+/// Opens with room for floats, for codes, or for neither; all must equal read_height_field().
 void expect_same_samples(const std::string& path, ReadOptions options, bool has_codes) {
   const auto whole = read_height_field(path, options);
   ASSERT_TRUE(whole) << whole.error().message;

@@ -35,7 +35,7 @@ Colours pack(Decode decode, const Heights& heights, double step = 1) {
   return colours;
 }
 
-/// Doubles the columns: new ones are means of two old ones, colour by colour.
+/// Doubles the columns: new columns are means of two old ones, colour by colour.
 Colours interpolate(const Colours& colours) {
   Colours wide = colours;
   for (int row = 0; row < kSide; ++row) {
@@ -73,7 +73,7 @@ TEST(packed_colours, as_they_were_made_raise_no_doubt) {
   const Heights whole = [](double x, double y) { return std::round(land(x, y)); };
   const Heights cliff = [](double x, double y) { return x > 30 + 9 * std::sin(y) ? 12 : 700; };
   const Heights sea = [](double x, double y) { return land(x, y) - 4000; };
-  // Noise, whose extreme heights are isolated everywhere.
+  // Noise, with isolated extreme heights everywhere.
   const Heights forest = [](double x, double y) {
     double sum = 0;
     for (int k = 1; k <= 6; ++k) sum += std::sin(k * 1e4 * std::sin(x * 12.9898 + y * 78.233 + k));
@@ -98,7 +98,8 @@ TEST(packed_colours, that_were_interpolated_are_told_with_their_number_and_jump)
   }
 }
 
-/// At kSide × kSide places, `step` samples apart: each colour is interpolated between the four around it, then rounded.
+/// Interpolates each colour between the four around it, at kSide × kSide places that are `step` samples apart, then
+/// rounds.
 Colours resample(const Colours& colours, double step) {
   Colours made;
   for (int row = 0; row < kSide; ++row) {

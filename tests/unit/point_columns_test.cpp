@@ -33,7 +33,7 @@ class PointColumns : public ::testing::Test {
     ADD_FAILURE() << points.error().message << "\n" << text;
     return {};
   }
-  /// The only message.
+  /// Returns the only message.
   std::string refuse(const std::string& text, const std::string& columns = "") {
     const auto points = try_to_read(text, columns);
     if (points) {
@@ -53,7 +53,7 @@ class PointColumns : public ::testing::Test {
   testing::ScratchFolder scratch_;
 };
 
-/// Lines of the survey by a pattern: n, N, E, H stand for number, northing, easting and height, @ for a name.
+/// Lines of the survey by a pattern: n, N, E and H mean number, northing, easting and height, @ a name.
 std::string survey(const std::string& pattern, const std::string& header = "", int first = 1, int step = 1) {
   std::string text = header;
   for (std::size_t k = 0; k < kEast.size(); ++k) {
@@ -98,7 +98,7 @@ TEST_F(PointColumns, northing_and_easting_that_look_alike_are_asked_for) {
   const std::string gauss_krueger = "P1;5401234,5;3501234,25;87,3\nP2;5401240,5;3501244,25;87,5\n";
   EXPECT_TRUE(contains(refuse(gauss_krueger), "--columns"));
   EXPECT_EQ(read(gauss_krueger, "number,northing,easting,height").x, (std::vector<double>{3501234.25, 3501244.25}));
-  // Three columns are x, y, z unless the first is as large as a northing.
+  // Three columns are x, y, z, unless the first is as large as a northing.
   EXPECT_EQ(read("1,2,3\n4,5,6\n").x, (std::vector<double>{1, 4}));
   EXPECT_TRUE(contains(refuse(survey("N,E,H")), "--columns enz or --columns nez"));
   expect_survey(survey("N,E,H"), "nez");

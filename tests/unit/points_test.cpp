@@ -32,7 +32,7 @@ class PointFiles : public ::testing::Test {
     ADD_FAILURE() << points.error().message;
     return {};
   }
-  /// The one-line message, which names the file.
+  /// Returns the one-line message, which must name the file.
   std::string refuse(const std::string& name, const std::string& text, const ReadPointsOptions& options = {}) {
     const std::string path = write(name, text);
     const auto points = read_points(path, options);

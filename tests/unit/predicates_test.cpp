@@ -15,7 +15,7 @@ RC_GTEST_PROP(predicates, orient_is_cyclic_and_antisymmetric, ()) {
   RC_ASSERT(orient(a, b, c) == -orient(b, a, c));
 }
 
-// Both arithmetics agree where they are exact.
+// 64-bit and 128-bit arithmetic agree where they are exact.
 RC_GTEST_PROP(predicates, in_circle_64_agrees_with_128, ()) {
   const auto side = *rc::gen::element(4, 100, kMaxInCircle64 + 1);
   const Point a = random_point(side), b = random_point(side), c = random_point(side), d = random_point(side);
@@ -53,7 +53,7 @@ TEST(predicates, the_64_bit_path_answers_up_to_29609) {
   const std::int32_t n = kMaxInCircle64;
   EXPECT_TRUE(in_circle_fits_64({0, 0}, {n, 0}, {n, n}, {0, n}));
   EXPECT_FALSE(in_circle_fits_64({0, 0}, {n + 1, 0}, {n, n}, {0, n}));
-  // The worst case of the bound, checked against 128 bits.
+  // The worst case of the bound, compared with 128-bit arithmetic.
   const Point worst[4] = {{0, 0}, {n, 0}, {0, n}, {n, n}};
   for (const Point a : worst)
     for (const Point b : worst)

@@ -1,4 +1,4 @@
-// Prints: the written solid is closed and keeps the bound.
+// Prints: the written solid is closed and satisfies the bound.
 #include "scarp/print.h"
 
 #include <gtest/gtest.h>

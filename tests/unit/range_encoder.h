@@ -1,4 +1,4 @@
-// The encoder that range_decoder.h and integer_decoder.h undo, written plainly: nothing is shared with them.
+// The encoder for range_decoder.h and integer_decoder.h, written plainly, without code shared with them.
 #pragma once
 
 #include <algorithm>
@@ -93,7 +93,7 @@ class RangeEncoder {
   std::uint32_t base_ = 0, length_ = 0xFFFFFFFFU;
 };
 
-/// Differences to predictions.
+/// Encodes differences to predictions.
 class IntegerEncoder {
  public:
   explicit IntegerEncoder(std::uint32_t bits) : bits_(bits) {}

@@ -74,7 +74,7 @@ TEST(RasterErrors, TheCallbackCancels) {
     return false;
   };
   const auto read = read_height_field(scratch.file("dem"), options);
-  // A machine that reads everything in a tenth of a second is never polled.
+  // If the machine reads everything in a tenth of a second, progress is never reported.
   if (last > 0) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().kind, ErrorKind::kCancelled);

@@ -1,4 +1,4 @@
-// Small rasters on disk, written without GDAL: ENVI (raw numbers and a text header), VRT around them, Esri ASCII.
+// Small rasters on disk, written without GDAL: ENVI (raw numbers and a text header), VRT over ENVI, Esri ASCII.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace scarp::testing {
 
-/// A folder that is removed at the end.
+/// A temporary folder, removed by the destructor.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -71,7 +71,7 @@ void write_envi(const std::string& path, int cols, int rows, const std::vector<T
                  "data type = " + std::to_string(kEnviType<T>) + "\ninterleave = bsq\nbyte order = 0\n" + more);
 }
 
-/// Raw numbers as a VRT of one band, for the 64-bit integers that ENVI files lack.
+/// Writes raw numbers as a VRT of one band, for the 64-bit integers that ENVI files lack.
 template <class T>
 void write_raw_vrt(const std::string& path, int cols, int rows, const std::vector<T>& values, const std::string& type,
                    const std::string& band) {
@@ -110,7 +110,7 @@ inline bool has_program(const std::string& name) {
 /// True if the command succeeded.
 inline bool run(const std::string& command) { return std::system(command.c_str()) == 0; }
 
-/// The error of reading `path`; its message must be one line that names the file.
+/// The error from reading `path`; its message must be one line that names the file.
 inline Error read_error(const std::string& path, const ReadOptions& options = {}) {
   const auto read = read_height_field(path, options);
   if (read) {

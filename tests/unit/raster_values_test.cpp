@@ -43,7 +43,7 @@ TYPED_TEST(RasterTypes, ExtremesAndNodata) {
   EXPECT_TRUE(std::isnan(read->samples[4]));
   EXPECT_EQ(read->info.valid, 5u);
   EXPECT_EQ(read->info.nodata, 7.0);
-  // 2^31 − 1, 2^32 − 1, 2^63 − 1 and 2^64 − 1 are one below a float32.
+  // 2^31 − 1, 2^32 − 1, 2^63 − 1 and 2^64 − 1 are one less than a float32.
   EXPECT_EQ(read->sample_rounding, sizeof(T) >= 4 && !std::is_floating_point_v<T> ? 1 : 0);
 
   ReadOptions options;

@@ -1,4 +1,4 @@
-// Requests by RFC 9112: each kind of refusal by name, and accepted ones.
+// Requests by RFC 9112: each kind of refusal by name, and accepted requests.
 #include "serve/request_parser.h"
 
 #include <gtest/gtest.h>

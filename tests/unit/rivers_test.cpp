@@ -13,7 +13,7 @@
 namespace scarp {
 namespace {
 
-/// Falls to the east, with bumps and pits.
+/// Land that falls to the east, with bumps and pits.
 OwnedHeightField bumpy_slope() {
   OwnedHeightField field;
   field.cols = 60;
@@ -62,7 +62,7 @@ TEST(rivers, never_rise_and_are_never_above_the_raster) {
     EXPECT_GT(river.deepest_cut, 0);
     EXPECT_GT(river.source, river.mouth);
     for (const auto& [x, y, z] : river.course.points) {
-      // On the lattice of 256ths the surface is nowhere steeper than 32 a sample.
+      // On the lattice of 256ths, the surface is nowhere steeper than 32 per sample.
       const auto col = static_cast<int>(x), row = static_cast<int>(field.rows - 1 - y);
       float highest = -1e9F;
       for (const int i : {0, 1, field.cols, field.cols + 1})

@@ -58,7 +58,7 @@ RC_GTEST_PROP(scan, visits_exactly_a_sliver, ()) {
   RC_ASSERT(scanned(corners) == expected);
 }
 
-// A tall raster with few columns is full of slivers: row by row a thousand of them need minutes.
+// A tall raster with few columns is full of slivers; scanning a thousand of them row by row needs minutes.
 TEST(scan, a_sliver_costs_its_samples_not_its_rows) {
   constexpr std::int32_t kFar = 1'000'000'000;
   std::int64_t samples = 0;
@@ -72,7 +72,7 @@ TEST(scan, a_sliver_costs_its_samples_not_its_rows) {
   EXPECT_LE(samples, 1000 * (4 + 5));
 }
 
-// Pick's theorem: 2·area = 2·inside + border − 2. A wrong count cannot hide at sizes where an oracle is too slow.
+// Pick's theorem: 2·area = 2·inside + border − 2. This detects a wrong count at sizes for which an oracle is too slow.
 RC_GTEST_PROP(scan, counts_what_pick_says_at_any_size, ()) {
   const std::int32_t side = 60000;
   const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };

@@ -1,4 +1,4 @@
-// Facts about solids, their placement, and solids for readers of positions only.
+// Facts about solids, their placement, and solids for readers that use only positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,13 +39,13 @@ TEST(MeasureSolid, FindsEveryFault) {
   Mesh inverted = tetrahedron();
   for (std::size_t t = 0; t < 4; ++t) std::swap(inverted.triangles[3 * t], inverted.triangles[3 * t + 1]);
   EXPECT_EQ(measure_solid(inverted).list_faults(), "1 part inside out");
-  // Two that share a place but no edge.
+  // Two tetrahedra that share a place but no edge.
   Mesh pinched = tetrahedron();
   for (const double x : {0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 0, -6}) pinched.positions.push_back(x);
   for (const std::uint32_t v : {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0}) pinched.triangles.push_back(4 + v);
   EXPECT_EQ(measure_solid(pinched).list_faults(), "1 pinched vertex");
   EXPECT_EQ(measure_solid(pinched).parts, 2u);
-  // Corners distinct only in double.
+  // Corners that are distinct only in double.
   Mesh small = tetrahedron();
   small.positions[3] = 1e-60;
   const SolidFacts facts = measure_solid(small);
@@ -62,7 +62,7 @@ TEST(BuildSolid, PartsThatTouchInAPointAreApart) {
     const SolidFacts facts = measure_solid(*solid);
     EXPECT_EQ(facts.parts, 32u);
     EXPECT_EQ(facts.triangles, board.triangle_count() + 32 * (4 + 4 + 2));
-    // add_base() leaves them at one place, which readers of positions cannot distinguish.
+    // add_base() leaves vertices at one place, which readers of positions cannot distinguish.
     ASSERT_TRUE(add_base(board, -2));
     EXPECT_GT(measure_solid(board).faulty_edges, 0u);
   }

@@ -14,7 +14,7 @@ namespace {
 
 using test::grid_mesh;
 
-/// Every directed edge occurs once, as does its reverse; every vertex is used, with one fan of triangles around it.
+/// Every directed edge and its reverse occur once. Every vertex is used, with one fan of triangles around it.
 void expect_closed_manifold(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
@@ -127,7 +127,7 @@ TEST(Solid, Checkerboards) {
   EXPECT_EQ(check_solid(board), 32 * (4 + 2u));  // loose squares
   const Mesh coarse = grid_mesh(12, 12, [](int i, int j) { return (i / 3 + j / 3) % 2 == 0; });
   EXPECT_EQ(check_solid(coarse), 8 * (4 + 2u));
-  // A frame of cells whose hole touches the next hole in a point, and the outer border, too.
+  // A frame of cells with a hole that touches the next hole, and also the outer border, in a point.
   const Mesh touching =
       grid_mesh(6, 6, [](int i, int j) { return !((i == 1 && j == 1) || (i == 2 && j == 2) || (i == 0 && j == 3)); });
   check_solid(touching);
@@ -230,7 +230,7 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
 }
 
 TEST(AddBase, GivesNewVerticesTheAttributesOfThoseAbove) {
-  // Two cells that touch in a corner: a vertex is doubled, and all are projected to the base.
+  // Two cells that touch in a corner: one vertex is duplicated, and all vertices are projected to the base.
   Mesh mesh = grid_mesh(2, 2, [](int i, int j) { return i == j; });
   test::add_attributes(mesh, 4);
   const Mesh open = mesh;

@@ -1,5 +1,5 @@
-// Everything that runs on several threads: the loop, the judge, and callers on their own threads. Also built alone, as
-// scarp_thread_tests, for ThreadSanitizer.
+// Everything that runs on several threads: the loop, the judge, and callers on their own threads. Also built
+// separately, as scarp_thread_tests, for ThreadSanitizer.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -292,7 +292,7 @@ TEST(Threads, NeverChangeTheMesh) {
   EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
 }
 
-/// So many that their changes are scanned in several parts.
+/// Enough lines that their changes are scanned in several parts.
 LineConstraints make_soft_lines(int cols, int rows) {
   LineConstraints lines;
   for (int k = 0; k < 60; ++k) {

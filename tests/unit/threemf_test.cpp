@@ -64,7 +64,7 @@ TEST(Zip, NoticesDamage) {
     }
   }
   EXPECT_GT(noticed, 40);
-  // A size impossible for deflate is rejected.
+  // A size that is impossible for deflate is rejected.
   auto bomb = archive;
   const std::size_t directory = load_number<std::uint32_t>(&bomb[bomb.size() - 6]);
   for (std::size_t k = 24; k < 28; ++k) bomb[directory + k] = 0xfe;

@@ -72,11 +72,11 @@ TEST(tile_job, holds_a_local_grid_and_its_place) {
   EXPECT_EQ(back->facts.units, "metre");
   EXPECT_EQ(back->reading.cell_size, 0.3);
   EXPECT_EQ(encode_tile_job(*back), bytes);
-  // Its place does not affect tiles.
+  // The job's place does not affect tiles.
   TileJob moved = job;
   moved.facts.plane->transform[12] += 1;
   EXPECT_EQ(settings_key_of(moved), settings_key_of(job));
-  // A square with another size than its levels' is invalid.
+  // A square whose size differs from its levels' is invalid.
   job.plan.grid.local.side *= 2;
   EXPECT_FALSE(decode_tile_job(encode_tile_job(job), "plan.json"));
 }
@@ -102,7 +102,7 @@ TEST(tile_job, keys_tell_settings_from_sources) {
   EXPECT_EQ(sources_key_of(one), sources_key_of(two));
   two.rasters[0].content = 8;
   EXPECT_NE(sources_key_of(one), sources_key_of(two));
-  // Files named by a VRT, and the plan's expectations, do not matter.
+  // Files named by a VRT and the plan's expectations do not matter.
   TileJob more = job;
   more.files = {{"/member.tif", 5, 6}};
   EXPECT_NE(sources_key_of(job), sources_key_of(more));
@@ -172,7 +172,7 @@ TEST(tile_job, a_block_hashes_to_the_same_as_long_as_its_nodes_are_the_same) {
     empty += *hash == 0;
     EXPECT_EQ(*hash == 0, !made->report.has_heights);
   }
-  // The lump lies in one block, or near enough to affect normals of others.
+  // The lump lies in one block, or is near enough to affect normals of others.
   EXPECT_GE(changed, 1u);
   EXPECT_LE(changed, 4u);
   EXPECT_LT(changed, blocks.size());

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-/// Samples on nodes with 2880 to a turn (1/8°), the first at 10° E, 50° N.
+/// Samples on nodes with 2880 per turn (1/8°), the first at 10° E, 50° N.
 struct Raster {
   int cols = 40, rows = 30;
   std::vector<float> samples;
@@ -124,7 +124,7 @@ TEST(raster_nodes, a_raster_all_round_the_globe_has_no_seam) {
   }
 }
 
-/// The same degrees, through a transform.
+/// The same degrees, via a transform.
 class Same final : public PointTransform {
  public:
   bool apply(std::span<double>, std::span<double>) const override { return true; }
@@ -244,7 +244,7 @@ TEST(gzip, is_read_back_and_damage_is_noticed) {
   EXPECT_FALSE(decompress_gzip(*packed, 1 << 20));
 }
 
-/// Bytes with few values in random order, like differences of a mesh's numbers; or periodic ones.
+/// Bytes with few values in random order, like differences of a mesh's numbers; or periodic bytes.
 std::vector<std::uint8_t> mesh_like(std::size_t count, std::size_t period) {
   std::mt19937 random(3);
   std::vector<std::uint8_t> bytes;

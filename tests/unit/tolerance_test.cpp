@@ -45,7 +45,7 @@ TEST(Tolerance, EachSampleHasItsOwnBound) {
     options.run.threads = 3;
     EXPECT_EQ(measure(terrain.view(), mesh, options)->offenders.size(), verdict->offenders.size());
 
-    // Bounds equal to the errors hold; slightly smaller ones are broken by all non-zero errors.
+    // Bounds equal to the errors hold; all non-zero errors break slightly smaller bounds.
     std::uint64_t nonzero = 0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const double error = std::abs(errors[i]);

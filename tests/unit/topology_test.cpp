@@ -1,4 +1,4 @@
-// Planted faults: the corresponding number catches each.
+// Planted faults: the corresponding number detects each fault.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ TEST_F(Faults, TriangleDropped) {
   EXPECT_FALSE(m.is_sound());
 }
 
-/// Drops in turn each triangle that shares an edge with another: a mesh with a hole never passes.
+/// Removes each triangle that shares an edge with another in turn: a mesh with a hole never passes.
 void expect_every_hole_seen(const Terrain& terrain, const Mesh& whole) {
   const auto sound = measure(terrain.view(), whole);
   ASSERT_TRUE(sound);
@@ -110,7 +110,7 @@ TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
         add_vertex(mesh, terrain.frame, c, r, std::isnan(sample) ? 0 : sample);
       }
     }
-    // Counter-clockwise around a cell, from its upper left corner; with a nodata corner three.
+    // Corners counter-clockwise around a cell, from its upper left corner; three if one is nodata.
     for (int r = 0; r + 1 < terrain.rows; ++r) {
       for (int c = 0; c + 1 < terrain.cols; ++c) {
         std::vector<std::uint32_t> ring;
@@ -128,7 +128,7 @@ TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
 }
 
 TEST(Holes, OfSliversAndLongEdgesAreSeen) {
-  // Thinner than the step with which the judge tests beyond an edge.
+  // Holes thinner than the step with which the judge tests beyond an edge.
   const Terrain terrain = wavy_terrain(201, 3);
   Mesh mesh;
   for (int r = 0; r < 3; r += 2) {

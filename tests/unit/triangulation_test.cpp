@@ -68,7 +68,7 @@ RC_GTEST_PROP(triangulation, constrained_segments_become_chains_of_edges, ()) {
     if (a != b && tin.constrain(a, b)) held.emplace_back(a, b);
   }
   RC_ASSERT(!held.empty() || tin.vertex_count() < 6);
-  // Later insertions respect constraints, and split those on which they lie.
+  // Later insertions respect constraints, and split constraints on which they lie.
   for (int k = 0; k < 20; ++k) insert_point(tin, point());
   RC_ASSERT(verify_triangulation(tin, side, side) == "");
   for (auto [a, b] : held) RC_ASSERT(testing::is_constrained_chain(tin, a, b));

@@ -1,4 +1,4 @@
-// Volumes between surfaces, where a formula gives them.
+// Volumes between surfaces for which there is a formula.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Mesh flat(double side, int steps, double z) {
   return square(side, steps, [&](double, double) { return z; });
 }
 
-/// A pyramid of that height over the square, its top in the middle.
+/// A pyramid of height `top` over the square, with its top in the middle.
 Mesh pyramid(double side, double top) {
   Mesh mesh;
   mesh.positions = {0, 0, 0, side, 0, 0, side, side, 0, 0, side, 0, side / 2, side / 2, top};
@@ -82,13 +82,13 @@ TEST(Volume, TwoTiltedPlanesCross) {
   // |x - y| over a square of side a has the integral a³ / 3, half on each side of the diagonal.
   expect_near(*measure_volume(east, north), 1000.0 / 6, 1000.0 / 6, 100);
   const Mesh west = square(10, 1, [](double x, double) { return 8 - x; });
-  // They cross at x = 4: 2 (x - 4) from there on.
+  // The surfaces cross at x = 4; their difference is 2 (x - 4) from there on.
   expect_near(*measure_volume(west, east), 16.0 * 10, 36.0 * 10, 100);
 }
 
 TEST(Volume, CountsWhatBothCover) {
   Mesh small = flat(4, 3, 2), large = flat(10, 4, 1);
-  small.origin = {8, -1, 5};  // 2 of its 4 columns and 3 of its 4 rows lie in the other
+  small.origin = {8, -1, 5};  // 2 of its 4 columns and 3 of its 4 rows lie in the other mesh
   const Volumes volumes = *measure_volume(large, small);
   expect_near(volumes, 0, 6 * 6, 6);
   EXPECT_NEAR(volumes.from_outside, 94, 1e-12 * 100);
@@ -169,7 +169,8 @@ TEST(Volume, TrianglesWithoutAreaInSpaceCountNothing) {
   expect_near(*measure_volume(mesh, flat(10, 4, 5)), 0, 300, 100);
 }
 
-/// The volume above 0 of the full grid: of each cell the mean of its corners, which is that of its two ways to be cut.
+/// The volume of the full grid above 0. Each cell has the mean of its corners, which is also the mean of its two
+/// splits.
 double volume_of_cells(const HeightField& field) {
   long double sum = 0;
   const auto at = [&](int col, int row) { return field.samples[row * std::ptrdiff_t{field.cols} + col]; };
@@ -181,7 +182,7 @@ double volume_of_cells(const HeightField& field) {
   return static_cast<double>(sum * std::abs(field.frame.determinant()));
 }
 
-/// The bounds of two meshes of real terrain imply how far their volumes are from that of all samples.
+/// The bounds of two meshes of real terrain limit how far their volumes differ from that of all samples.
 TEST(Volume, OfRealTerrainIsKnownToTheBounds) {
   for (const char* name : {"jacksboro_fault.tif", "crater.tif"}) {
     const auto path = bench::find_raster(source_dir(), name);

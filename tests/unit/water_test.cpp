@@ -35,7 +35,7 @@ Line ring(std::vector<std::array<double, 3>> points, LineRole role) {
   return line;
 }
 
-/// In x, y of the grid frame, rows going up; with an island.
+/// A lake with an island, in x and y of the grid frame, with rows going up.
 std::vector<Line> lake_with_island() {
   return {ring({{10.3, 10.2, NAN}, {30.7, 12.4, NAN}, {28.1, 35.9, NAN}, {12.2, 33.3, NAN}}, LineRole::kOuter),
           ring({{18.2, 20.1, NAN}, {22.9, 20.3, NAN}, {20.5, 25.7, NAN}}, LineRole::kHole)};
@@ -155,7 +155,7 @@ TEST(water, has_the_level_that_it_has_without_its_neighbours) {
   std::vector<Line> neighbour = {ring({{20, 5, NAN}, {36, 9, NAN}, {29, 30, NAN}}, LineRole::kOuter)};
   const double alone = flatten(lake).front().level, other = flatten(neighbour).front().level;
   ASSERT_NE(alone, other);
-  // The same lake twice, and one that overlaps both.
+  // The same lake twice, and a lake that overlaps both.
   std::vector<Line> lines = lake;
   for (Line again : lake) {
     again.polygon = 1;

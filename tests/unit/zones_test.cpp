@@ -46,7 +46,7 @@ TEST(zones, give_materials_by_centre_the_first_zone_before_others) {
   Zone holed{{box(0, 0, 4, 1), box(1, 0, 2, 1)}, 7};
   const std::vector<Zone> zones{holed, {{box(0, 0, 2, 1)}, 5}};
   EXPECT_EQ(find_materials(mesh, zones, kSame, 3), (std::vector<std::uint32_t>{7, 7, 5, 5, 7, 7, 7, 7}));
-  // In another frame: the mesh is ten times larger and lies elsewhere.
+  // In another frame, the mesh is ten times larger and lies elsewhere.
   Mesh far = mesh;
   for (double& value : far.positions) value *= 10;
   far.origin = {1000, 0, 0};

@@ -1,5 +1,5 @@
-// The commands of the program. Each runs with the given options; `command_line` is the user's input, for reports. Fails
-// with one sentence for the user.
+// The commands of the program. Each runs with the given options and fails with one sentence for the user.
+// `command_line`: the user's input, for reports.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace scarp::cli {
 
-/// Simplifies a raster or scattered points; scarp classic, too.
+/// Simplifies a raster or scattered points; also runs scarp classic.
 Result<void> run_simplify(const GivenOptions& given, const std::string& command_line);
 Result<void> run_simplify_points(const GivenOptions& given, const std::string& command_line);
 /// Judges a mesh file by its raster or points.
@@ -25,7 +25,7 @@ Result<void> run_tile_run(const GivenOptions& given, const std::string& command_
 Result<void> run_tile_finish(const GivenOptions& given, const std::string& command_line);
 /// Proves the promises of a finished tileset.
 Result<void> run_tile_check(const GivenOptions& given, const std::string& command_line);
-/// Serves a tileset over HTTP, or tiles of a raster on demand. Returns once a signal requests it.
+/// Serves a tileset over HTTP, or tiles of a raster on demand, until a signal ends it.
 Result<void> run_serve(const GivenOptions& given, const std::string& command_line);
 /// Prints facts about a raster, points or a mesh, and suitable errors for a raster.
 Result<void> run_info(const GivenOptions& given, const std::string& command_line);

@@ -48,7 +48,7 @@ void stretch(OwnedHeightField& field, double range) {
   field.info.max = heights.max;
 }
 
-/// Places the first sample's corner at the origin, rows going down.
+/// Places the lower left corner at the origin.
 void place(OwnedHeightField& field, double size) {
   RasterInfo& info = field.info;
   info.has_georeference = true;

@@ -30,7 +30,7 @@ Error name_raster(Error error, const std::string& path) {
   return error;
 }
 
-/// Fails if an option is given that does not apply to the file's contents. `also`: options that do.
+/// Fails if an option is given that does not apply to the file's contents. `also`: options that apply.
 Result<void> refuse(const GivenOptions& given, const char* kind, std::initializer_list<OptionId> also) {
   for (const OptionRow* row : given.given()) {
     const bool is_of_raster = row->group == OptionGroup::kInput || row->group == OptionGroup::kNodata;

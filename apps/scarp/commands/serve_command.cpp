@@ -52,7 +52,7 @@ struct Served {
   std::unique_ptr<TileAnswers> answers;
 };
 
-/// Fails for options that a finished set or a plan already decides.
+/// Fails for options that a finished set or a plan already determines.
 Result<void> check_alone(const GivenOptions& given) {
   const bool is_plan = lower_extension(given.input()) == ".json";
   constexpr std::array kFree{kPort, kHost, kThreads, kQuiet, kJsonProgress};

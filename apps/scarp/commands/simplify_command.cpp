@@ -42,7 +42,7 @@ Result<void> run_simplify(const GivenOptions& given, const std::string& command_
   SCARP_TRY(const std::vector<ReadyFile>& files, encode_files(plan, display.callback(), outcome));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
 
-  // The work is done: from here on all files get their names, or none.
+  // From here on, all files get their names, or none does.
   std::vector<FileBytes> ready;
   for (const ReadyFile& file : files) ready.push_back({file.path, file.bytes, file.raster.get()});
   SCARP_RETURN_IF_ERROR(write_files(ready, plan.overwrite));

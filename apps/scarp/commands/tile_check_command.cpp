@@ -21,10 +21,10 @@ namespace {
 
 using enum OptionId;
 
-/// Memory for the source: a larger one stays in its file.
+/// Memory for the source: a larger raster stays in its file.
 constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
 
-/// Nothing for a raster without a place on the globe. Borrows the plane.
+/// The place of the plane on the globe, if it has one. Borrows `plane`.
 std::optional<CheckedPlace> place_of(const RasterOnPlane& plane, const LocalRaster& raster) {
   if (!plane.samples) return {};
   const RasterOnGlobe& globe = *plane.samples;
@@ -39,7 +39,7 @@ std::optional<CheckedPlace> place_of(const RasterOnPlane& plane, const LocalRast
                       globe.ellipsoid};
 }
 
-/// Fails for raster options without a raster, or with a plan that decides them.
+/// Fails for raster options without a raster, or with a plan that determines them.
 Result<void> check_unused(const GivenOptions& given) {
   if (given[kSource] && lower_extension(*given[kSource]) != ".json") return {};
   constexpr std::array kFree{kSource, kGrid, kJson, kThreads, kQuiet, kJsonProgress};

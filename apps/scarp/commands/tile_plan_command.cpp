@@ -61,7 +61,7 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
   return text;
 }
 
-/// Follows the earlier plan.
+/// Opens a job that follows the earlier plan.
 Result<OpenedJob> follow(const GivenOptions& given, const ProgressCallback& progress) {
   constexpr std::array kFree{kChangedSince, kHash, kSurvey, kShards, kSlurm, kOverwrite, kQuiet, kJsonProgress};
   for (const OptionRow* row : given.given()) {

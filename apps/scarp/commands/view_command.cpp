@@ -81,7 +81,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
   return encode_levels(without_slash(path), *levels);
 }
 
-/// MESH; with OUT_lod0.glb also the other levels.
+/// MESH; for OUT_lod0.glb, also the other levels.
 std::vector<std::string> mesh_paths(const GivenOptions& given) {
   const std::string& mesh = *given[kMesh];
   std::vector<std::string> paths{mesh};
@@ -134,7 +134,7 @@ Result<OwnedHeightField> read_raster(const GivenOptions& given, const Mesh& mesh
   return field;
 }
 
-/// kPromise if the mesh covers no sample, as in measure.
+/// Fails with kPromise if the mesh covers no sample, like measure.
 Result<void> check_place(const GivenOptions& given, const Mesh& mesh, const OwnedHeightField& field) {
   SCARP_TRY(const auto& measured, measure(field.view(), mesh, {.topology = false}));
   if (measured.samples > 0) return {};

@@ -1,4 +1,4 @@
-// Answers made by a few threads, so that a slow one holds up no other client.
+// Answers made by a few threads, so that a slow one delays no other client.
 #pragma once
 
 #include <condition_variable>
@@ -24,8 +24,8 @@ class AnswerQueue {
     Response response;
   };
 
-  /// `threads`: 0 for all cores. `answer` is called concurrently, but for each path only on one thread: later requests
-  /// find the tile made. An exception becomes an answer with status 500.
+  /// `threads`: 0 for all cores. `answer` is called concurrently, but only on one thread for each path, so that later
+  /// requests use the finished tile. An exception becomes an answer with status 500.
   AnswerQueue(int threads, Answer answer);
   AnswerQueue(const AnswerQueue&) = delete;
   AnswerQueue& operator=(const AnswerQueue&) = delete;
@@ -34,7 +34,7 @@ class AnswerQueue {
 
   /// Becomes readable when an answer is ready.
   int wake_fd() const { return wake_[0]; }
-  /// REQUIRES: one request per client at a time.
+  /// Queues a request. REQUIRES: one per client at a time.
   void ask(std::uint64_t client, Request request);
   /// Drops the client's request unless work on it has begun.
   void forget(std::uint64_t client);

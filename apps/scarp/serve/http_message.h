@@ -22,7 +22,7 @@ struct Request {
   std::string header(const std::string& name) const;
 };
 
-/// Closed after the last answer that uses it.
+/// A file that is closed after the last answer that uses it.
 class OpenFile {
  public:
   explicit OpenFile(int fd) : fd_(fd) {}
@@ -72,7 +72,7 @@ struct ByteRange {
   std::uint64_t first = 0, last = 0;  ///< inclusive
 };
 enum class RangeKind {
-  kWhole,       ///< no range, several, or an unknown kind: answer with the whole file
+  kWhole,       ///< no range, several, or an unknown kind: the answer is the whole file
   kPart,        ///< `range` is set
   kOutOfReach,  ///< starts after the end of the file
 };

@@ -31,11 +31,11 @@ namespace {
 constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
 /// An address may use 1 / kShareOfAddress of the places.
 constexpr std::size_t kShareOfAddress = 2;
-/// Maximum chunks sent to one client, and clients accepted, before others get their turn.
+/// Most chunks sent to one client, and most clients accepted, before other work continues.
 constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
 /// Bytes of an answer that the system queues; progress shows after each such amount.
 constexpr int kMostUnsent = 1 << 16;
-/// More than the buffers of a client that never reads.
+/// More bytes than the buffers of a client that never reads.
 constexpr std::uint64_t kSurelyTaken = 1 << 18;
 constexpr std::size_t kMostWaitingBytes = 64'000'000;
 constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2}, kCredit{5};
@@ -68,7 +68,7 @@ std::string client_of(const sockaddr_storage& address) {
   return std::string(reinterpret_cast<const char*>(one.s6_addr) + (holds_ipv4 ? 12 : 0), holds_ipv4 ? 4 : 8);
 }
 
-/// A client's connection: repeatedly a request, a wait and an answer.
+/// A client's connection, which repeats a request, a wait and an answer.
 class Connection {
  public:
   Connection(int fd, std::uint64_t number, std::string client, AnswerQueue& queue)
@@ -90,11 +90,11 @@ class Connection {
   const std::string& client() const { return client_; }
   short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
-  /// True while the server works on its request, so that missing progress is not the client's fault.
+  /// True while the server works on the request: missing progress is not the client's fault.
   bool waits() const { return waits_; }
   /// Time of the last byte in either direction. A client that has received more than buffers hold gets some extra
-  /// seconds, since its system may accept more bytes only when half of its buffer is free. Otherwise repeated new
-  /// connections would end a slow download.
+  /// seconds, since its system may accept more bytes only when half of its buffer is free. Otherwise new connections
+  /// would end a slow download.
   Clock::time_point last_progress() const {
     return is_answering() && taken_ > kSurelyTaken ? moved_ + kCredit : moved_;
   }
@@ -156,7 +156,7 @@ class Connection {
     queue_.ask(number_, std::move(parsed.request));
   }
 
-  /// Begins an answer. Without a request the connection ends after it.
+  /// Begins an answer. Without a request, the connection ends after the answer.
   void begin(const std::optional<Request>& request, Response response) {
     closes_ = !request || !request->keeps_alive;
     const std::string head = write_head(response, !closes_);
@@ -212,7 +212,7 @@ bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   return true;
 }
 
-/// Makes room for another connection of a client; false if all candidates are being worked for or just received bytes.
+/// Makes room for another connection of a client. False if all candidates wait for the server or just received bytes.
 bool make_place(Connections& connections, std::size_t places, const std::string& client) {
   const Clock::time_point now = Clock::now();
   const auto is_of_client = [&](const Connection& one) { return one.client() == client; };

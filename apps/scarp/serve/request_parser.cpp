@@ -48,7 +48,7 @@ constexpr std::array<std::uint8_t, 256> make_character_sets() {
   const auto add = [&](std::string_view characters, int set) {
     for (const char c : characters) sets[static_cast<std::uint8_t>(c)] |= static_cast<std::uint8_t>(set);
   };
-  // Targets may contain characters that browsers do not escape, such as "|"; no file has such a name by chance.
+  // Targets may contain characters that browsers do not escape, such as "|".
   for (std::size_t c = '!'; c <= '~'; ++c) sets[c] |= c == '#' ? kText : kText | kTarget;
   for (std::size_t c = 0x80; c <= 0xff; ++c) sets[c] |= kText;
   add(" \t", kText);
@@ -65,7 +65,7 @@ bool is_of(char c, CharacterSet set) { return (kCharacterSets[static_cast<std::u
 bool are_of(std::string_view text, CharacterSet set) {
   return std::ranges::all_of(text, [&](char c) { return is_of(c, set); });
 }
-/// A word has at least one character.
+/// True for at least one character, all from the set.
 bool is_word(std::string_view text, CharacterSet set) { return !text.empty() && are_of(text, set); }
 
 /// Decodes "%41" to "A". Nothing for an incomplete code or code 0.
@@ -227,7 +227,7 @@ class RequestParser {
     return true;
   }
 
-  /// Reads fields up to the empty line.
+  /// Reads header fields up to the empty line.
   bool read_fields() {
     while (true) {
       std::string_view line;

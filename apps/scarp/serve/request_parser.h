@@ -1,4 +1,4 @@
-// Parses requests by RFC 9112. Bytes with more than one reading are refused, never repaired.
+// Parses requests by RFC 9112. Ambiguous bytes are refused, never repaired.
 #pragma once
 
 #include <cstddef>

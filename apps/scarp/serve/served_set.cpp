@@ -17,7 +17,7 @@ FileStamp describe_status(const struct stat& status) {
                                                                   status.st_mtim.tv_sec, status.st_mtim.tv_nsec)};
 }
 
-/// Changes when another set replaces this one, and when its client's file is rewritten.
+/// A text that changes when another set replaces this one, or when its layer.json or tileset.json is rewritten.
 std::string stamp_of_set(const std::string& path) {
   std::string stamp = stamp_of(path).text;
   for (const char* const name : {"/layer.json", "/tileset.json"}) stamp += "," + stamp_of(path + name).text;
@@ -36,7 +36,7 @@ Result<std::shared_ptr<const OpenedSet>> open_once(const std::string& path, cons
   return opened;
 }
 
-/// Retries until the reader and the file belong to the same set.
+/// Opens a set. Retries until the reader and the file belong to the same set.
 Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   constexpr int kMostTries = 5;
   for (int k = 1;; ++k) {
@@ -46,7 +46,7 @@ Result<std::shared_ptr<const OpenedSet>> open_whole(const std::string& path) {
   }
 }
 
-/// Retries, since a set is briefly missing while another replaces it.
+/// Opens a folder. Retries, since a set is briefly missing while another replaces it.
 int open_folder(const std::string& path) {
   constexpr int kMostTries = 50;
   constexpr useconds_t kNap = 1000;

@@ -1,4 +1,4 @@
-// The set that a server answers from; it may be replaced during serving.
+// The set that a server reads; it may be replaced during serving.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace scarp::cli {
 
-/// A set opened at some time.
+/// A set as it was when opened.
 struct OpenedSet {
   std::shared_ptr<const TileSetReader> reader;
   std::shared_ptr<const OpenFile> file;  ///< the file of a single-file set
@@ -29,18 +29,18 @@ struct OpenedSet {
 
 class ServedSet {
  public:
-  /// Fails as open_tile_set() does.
+  /// Fails like open_tile_set().
   static Result<std::unique_ptr<ServedSet>> open(const std::string& path);
   /// A set that is never replaced.
   explicit ServedSet(std::shared_ptr<const TileSetReader> reader);
 
-  /// The current set, reopened if another set replaced its file. May be called concurrently.
+  /// The current set, which is reopened if another set replaced its file. May be called concurrently.
   std::shared_ptr<const OpenedSet> now() const;
 
  private:
   ServedSet() = default;
 
-  std::string path_;  ///< empty if it is never replaced
+  std::string path_;  ///< empty if the set is never replaced
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const OpenedSet> opened_;
   mutable std::string stamp_tried_;
@@ -54,7 +54,8 @@ struct FileStamp {
 FileStamp stamp_of(const std::string& path);
 FileStamp stamp_of(const OpenFile& file);
 
-/// Null if the folder has no such file. Ignores names that are hidden, lead out of it or pass through links.
+/// Opens a file of the folder; null if it has no such file. Ignores names that are hidden, lead out of the folder or
+/// contain links.
 std::shared_ptr<const OpenFile> open_in_folder(const std::string& folder, std::string_view name);
 /// Fails with kInput.
 Result<std::vector<std::uint8_t>> read_all(const OpenFile& file);

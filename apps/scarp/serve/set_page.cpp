@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostMadeTiles = 64, kMostDrawnTiles = 2000;
 
-/// The finest level within the limit of tiles.
+/// The finest level with at most `most_tiles` tiles.
 std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   const auto& levels = set.tiles();
   std::size_t found = 0;
@@ -26,7 +26,7 @@ std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   return found;
 }
 
-/// A single level, since making each costs as much.
+/// One level of a set: each further level would cost as much to make.
 class OneLevel final : public TileSetReader {
  public:
   OneLevel(const TileSetReader& set, std::size_t z) : set_(set), tiles_(z + 1) { tiles_[z] = set.tiles()[z]; }

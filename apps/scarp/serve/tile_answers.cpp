@@ -17,7 +17,7 @@
 namespace scarp::cli {
 namespace {
 
-/// More than any tile needs.
+/// More bytes than any tile needs.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 28;
 
 std::size_t hash_of(std::span<const std::uint8_t> bytes) {
@@ -182,7 +182,7 @@ Response TileAnswers::answer_in_folder(const Request& request, std::string name)
 }
 
 Response TileAnswers::answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const {
-  // Only names of the set's files are searched, so no path leads out of it.
+  // Only names of the set's files are searched, so no path leads out of the set.
   if (opened.file && name == name_) return answer_file(request, name, opened.file);
   const TileSetReader& set = *opened.reader;
   const auto id = find_tile_id(set.format(), name);

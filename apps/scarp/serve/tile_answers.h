@@ -13,9 +13,9 @@ namespace scarp::cli {
 
 class TileAnswers {
  public:
-  /// Fails as open_tile_set() does. A replaced set is served from then on, as are new files in its folder.
+  /// Fails like open_tile_set(). Later serves a set that replaces this one, and new files in its folder.
   static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
-  /// Answers with tiles made on demand. `name`: of the set.
+  /// Answers with tiles made on demand. `name`: the set's name.
   TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);
 
   /// The current set.
@@ -27,7 +27,7 @@ class TileAnswers {
   TileAnswers() = default;
   Response answer_path(const Request& request) const;
   Response answer_missing(const std::string& name) const;
-  /// Both return status 404 for missing files.
+  /// These two return status 404 for missing files.
   Response answer_in_folder(const Request& request, std::string name) const;
   Response answer_in_set(const Request& request, const std::string& name, const OpenedSet& opened) const;
   std::vector<std::uint8_t> make_page(const OpenedSet& opened) const;
@@ -35,7 +35,7 @@ class TileAnswers {
   std::string file_url() const { return is_file_ ? "/" + name_ : ""; }
 
   std::unique_ptr<ServedSet> set_;
-  const LiveTileSet* live_ = nullptr;  ///< the same set if it makes tiles on demand
+  const LiveTileSet* live_ = nullptr;  ///< the set, if it makes tiles on demand
   std::string name_, folder_;          ///< the folder is empty if the set has none
   bool is_file_ = false;
 };

@@ -14,7 +14,7 @@ namespace scarp::cli {
 /// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
 ///
 /// kLine: rewrites one line, starting after one second: pass, percent, vertices, current error, time left in this pass.
-/// kJson: one object a line, at most five a second plus one at the end of each pass. Its keys are pass, fraction,
+/// kJson: one object per line, at most five per second plus one at the end of each pass. Its keys are pass, fraction,
 /// vertices, max_error, seconds (since construction). In the pass "tiles": tiles, bytes and seconds_left (null before
 /// an estimate) instead of vertices and max_error.
 class ProgressDisplay {
@@ -27,11 +27,11 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Makes an interrupt in the pass of that name finish it (content_with_interrupt()) instead of ending the run.
+  /// Makes an interrupt in the pass of that name finish the pass (content_with_interrupt()) instead of ending the run.
   void let_interrupt_finish(std::string_view pass) { finished_by_interrupt_ = pass; }
   /// Tiles and bytes so far, shown in the pass "tiles". They must outlive the last pass.
   void show_tiles(const TileCounts& counts) { tiles_ = &counts; }
-  /// For the library's options. The display must outlive the call that uses it.
+  /// The callback for the library's options. The display must outlive the call that uses it.
   ProgressCallback callback();
   /// Ends the last pass and erases the line; nothing is shown afterwards. Call after success.
   void finish();

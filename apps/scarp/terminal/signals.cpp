@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-// Lock-free, so that handlers may use them.
+// These are lock-free, so that handlers may use them.
 std::atomic<int> g_signals = 0;
 std::atomic<bool> g_is_content = false, g_is_told = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
@@ -26,14 +26,14 @@ void remove_half_written() {
   }
 }
 
-/// The default action, so that a shell sees the signal, but without half-written files left.
+/// Deletes half-written files, then performs the default action, so that a shell sees the signal.
 extern "C" void on_end_signal(int signal) {
   remove_half_written();
   std::signal(signal, SIG_DFL);
   raise(signal);  // acts when this handler returns
 }
 
-/// The run did not stop by itself: it waits in a library or for a pipe.
+/// Ends a run that did not stop by itself because it waits in a library or for a pipe.
 extern "C" void on_late_stop(int) {
   if (outputs_naming() == Naming::kNow) {
     alarm(1);

@@ -4,10 +4,10 @@
 namespace scarp::cli {
 
 /// Handles SIGINT, SIGTERM and SIGHUP (unless nohup ignores it). The first signal asks the running call to stop (see
-/// interrupted()). If it still runs two seconds later, perhaps waiting for a server, the program ends with the message
-/// and exit code of an interrupted run. No temporary files are left. The second signal ends the program immediately in
-/// this way, as SIGQUIT always does. SIGPIPE and SIGXFSZ are ignored: writes to a closed pipe or a full file fail
-/// instead. Call first in main(); with glibc it runs even before, ahead of all other code.
+/// interrupted()). If the call still runs two seconds later, for example waiting for a server, the program ends with
+/// the message and exit code of an interrupted run and deletes its temporary files. A second signal, or SIGQUIT, ends
+/// the program immediately in this way. SIGPIPE and SIGXFSZ are ignored: writes to a closed pipe or a full file fail
+/// instead. Call first in main(); with glibc it runs even earlier, before all other code.
 void install_signal_handlers();
 
 /// True after SIGINT, SIGTERM or SIGHUP, unless content_with_interrupt() consumed it.

@@ -10,7 +10,7 @@
 #include "scarp/version.h"
 
 extern "C" {
-/// Other than 0: cancel.
+/// Returns 0, or another value to cancel.
 __attribute__((import_module("scarp"), import_name("progress"))) std::int32_t scarp_progress(const char* pass,
                                                                                              double fraction,
                                                                                              double vertices,
@@ -34,7 +34,7 @@ void keep_exception() {
     throw;
   } catch (const std::bad_alloc&) {
     last_error().kind = ErrorKind::kMemory;
-    last_error().message = "out of memory";  // short enough to need no allocation
+    last_error().message = "out of memory";  // short enough for no allocation
   } catch (const std::exception& error) {
     keep({ErrorKind::kInternal, std::string("internal error: ") + error.what() + "; please report it"});
   } catch (...) {

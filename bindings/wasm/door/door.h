@@ -1,6 +1,6 @@
-// Common parts of all functions of the WebAssembly interface: numbers and messages. No exception escapes.
+// Common parts of all functions of the WebAssembly interface: numbers and messages. No exception leaves them.
 //
-// JavaScript sees memory and doubles. Arguments and results are structs of doubles only, each a Float64Array for
+// JavaScript can access memory and doubles. Arguments and results are structs of doubles, which are Float64Arrays in
 // JavaScript; a pointer is passed as its address. The functions are those of bindings/c/scarp_c.h for the core, without
 // options by name.
 #pragma once
@@ -66,7 +66,7 @@ struct Field {
 std::array<double, 6> affine_of(const Field& given);
 Result<HeightField> take_field(const Field& given);
 
-/// Calls JavaScript, which may cancel.
+/// A callback to JavaScript, which may cancel.
 ProgressCallback ask_javascript();
 
 }  // namespace scarp::wasm

@@ -60,7 +60,7 @@ SCARP_EXPORT(scarp_live_create) LiveField* scarp_live_create(const Field* given_
     return std::make_unique<LiveField>(std::move(live));
   });
 }
-/// Returns 0 on failure, as the next one.
+/// This function and the next return 0 on failure.
 SCARP_EXPORT(scarp_live_update)
 double scarp_live_update(LiveField* live, double col, double row, double cols, double rows, double heights,
                          double tolerances) {

@@ -9,7 +9,7 @@ namespace scarp::wasm {
 
 /// The measured error of a mesh. Errors are vertical, mesh minus sample, in z units.
 struct Report {
-  double stop = -1;    ///< reason of the end: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
+  double stop = -1;    ///< goal reached: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
   double effort = -1;  ///< 0 fast, 1 normal, 2 high, 3 max; -1 for a measured mesh
   double vertices = 0, triangles = 0;
   double samples = 0, uncovered = 0, stray = 0;
@@ -25,7 +25,7 @@ struct WholeMesh {
   double cell[2] = {0, 0};  ///< sides of a raster cell along x and y, with sign; 0: unknown
 };
 
-/// A mesh with its largest error; the rest of its report is unknown.
+/// A mesh with its largest error, without the rest of a report.
 std::unique_ptr<WholeMesh> whole_of(Mesh mesh, double max_error);
 
 struct MeshView {

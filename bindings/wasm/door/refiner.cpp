@@ -14,8 +14,8 @@ SCARP_EXPORT(scarp_refiner_create) Refiner* scarp_refiner_create(const Field* gi
     return std::make_unique<Refiner>(std::move(refiner));
   });
 }
-/// Inserts until the max error is at most `max_error`, or there are `max_vertices` (0: any number), or `most` were
-/// inserted. Returns how many were inserted; -1: failed.
+/// Inserts vertices until the max error is at most `max_error`, or there are `max_vertices` (0: any number), or `most`
+/// were inserted. Returns the number inserted; -1: failed.
 SCARP_EXPORT(scarp_refiner_run)
 double scarp_refiner_run(Refiner* refiner, double max_error, double max_vertices, double most) {
   return guarded<double>(-1, [&]() -> Result<double> {

@@ -9,7 +9,7 @@
 
 namespace scarp::wasm {
 
-/// Enums by their numbers in scarp/options.h. NaN and 0: not given.
+/// Enums have their numbers in scarp/options.h. NaN and 0: not given.
 struct Options {
   double max_error, max_triangles, max_vertices;
   double effort, vertices, order, objective;

@@ -1,4 +1,4 @@
-// Tiles of quantized-mesh, made on demand from a raster in degrees or in web Mercator.
+// Quantized-mesh tiles, made on demand from a raster in degrees or in web Mercator.
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -75,7 +75,7 @@ Result<SourceFacts> find_facts(const HeightField& field, const RasterPlace& plac
     return SourceFacts{covered, std::sqrt(cell_x * metres[0] * cell_y * metres[1]), range.min, range.max,
                        std::sqrt(cell_x * cell_y)};
   }
-  // In metres of the map, as in the program.
+  // The cell is in metres of the map, as in the program.
   return SourceFacts{covered, std::sqrt(cell_x * cell_y), range.min, range.max, 0};
 }
 
@@ -136,7 +136,7 @@ Bytes* scarp_tiler_tile(const Tiler* tiler, double z, double x, double y, TileVi
     return made;
   });
 }
-/// The tiles that have heights and those that clients need to reach them: pairs of column and row, as uint32.
+/// The tiles that have heights, and those through which clients reach them: pairs of column and row, as uint32.
 SCARP_EXPORT(scarp_tiler_list) Bytes* scarp_tiler_list(const Tiler* tiler, double level, TileView* out) {
   return give<Bytes>([&]() -> Result<std::unique_ptr<Bytes>> {
     SCARP_TRY(const auto& lists, scarp::find_tiles(tiler->plan, tiler->nodes.get(), {.threads = 1}));

@@ -17,7 +17,7 @@ struct LevelRun {
 };
 
 /// `source` with some samples set to other heights; nodata stays nodata. `runs`: in raster order, disjoint. Cost: that
-/// of the window, plus a search for the first run in each row.
+/// of `source`, plus a search for the first run in each row.
 std::shared_ptr<const SampleSource> level_source(std::shared_ptr<const SampleSource> source,
                                                  std::vector<LevelRun> runs);
 

@@ -11,7 +11,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// A mask with more information than the declared nodata value: a mask band, an alpha band, nodata by colour.
+/// A mask that shows more than the declared nodata value: a mask band, an alpha band, nodata by colour.
 GDALRasterBandH find_mask(GDALDatasetH dataset, GDALRasterBandH band, const ReadOptions& options) {
   const int flags = GDALGetMaskFlags(band);
   const bool by_value = (flags & GMF_NODATA) != 0;
@@ -53,7 +53,7 @@ void find_nodata(const ReadOptions& options, BandSense& sense, RasterInfo& info)
   info.nodata = sense.nodata;
 }
 
-/// The attributes of a netCDF variable that declare depths; empty unless its values count downwards.
+/// The attributes of a netCDF variable that declare depths; empty unless its values increase downwards.
 std::string find_depths(GDALRasterBandH band) {
   const auto attribute = [&](const char* name) {
     const char* value = GDALGetMetadataItem(band, name, nullptr);

@@ -20,22 +20,22 @@ namespace scarp::gdal {
 struct DestroyCrs {
   void operator()(OGRSpatialReferenceH crs) const { OSRDestroySpatialReference(crs); }
 };
-/// Always two-dimensional, x (east, longitude) before y (north, latitude).
+/// Two-dimensional, x (east, longitude) before y (north, latitude), unless stated otherwise.
 using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyCrs>;
 
-/// The declared CRS of the raster, with a vertical datum and in its own order of axes; null if none. CF files in
-/// degrees without a datum are in WGS 84.
+/// The declared CRS of the raster, with its vertical datum and its own order of axes; null if none. CF files in degrees
+/// without a datum are in WGS 84.
 Crs declared_crs(GDALDatasetH dataset);
 /// The raster's CRS; null if none.
 Crs crs_of(GDALDatasetH dataset);
 /// Null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
-/// Like find_crs(), but keeps a vertical datum and the order of axes.
+/// Like find_crs(), but preserves a vertical datum and the order of axes.
 Crs find_declared_crs(const std::string& definition);
-/// The CRS of data in memory, as find_declared_crs(); null for none. kUsage if GDAL does not know it.
+/// The CRS of data in memory, by find_declared_crs(); null for none. Fails with kUsage if GDAL does not know it.
 Result<Crs> find_crs_of(const std::string& name, const std::string& definition);
-/// From an option: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
+/// The CRS that an option names: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);
 
 /// "EPSG:32611" if its authority code is known, else WKT.
@@ -49,7 +49,8 @@ std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
 
-/// kInput for a centre far outside the range of degrees, in a CRS of degrees. `way`: the command that sets another CRS.
+/// Fails with kInput if the CRS is in degrees and the centre far outside their range. `way`: the command that sets
+/// another CRS.
 Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre, const std::string& path,
                             const std::string& way);
 
@@ -57,13 +58,13 @@ Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre,
 /// and a new one is created when all are in use.
 class Passage {
  public:
-  /// `is_strict`: use only operations that PROJ knows to be correct, whose grids are on this machine.
+  /// `is_strict`: use only operations that PROJ knows to be correct and that have their grids on this machine.
   Passage(const Crs& from, const Crs& to, bool is_strict = false);
 
   /// False if PROJ knows no conversion.
   bool usable() const;
-  /// Maps the points in place; `z` is empty for points of a map. Returns false if any point has no image (it becomes
-  /// NaN).
+  /// Maps the points in place; `z` is empty for two-dimensional points. Points without an image become NaN; returns
+  /// false if there are any.
   bool apply(std::span<double> x, std::span<double> y, std::span<double> z) const;
 
  private:

@@ -3,8 +3,8 @@
 // Heights are above the ellipsoid. PROJ applies a geoid if the raster's CRS names one and its grid is on this machine;
 // otherwise heights are used unchanged, with a warning.
 //
-// The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid, so bounds proven
-// in one hold in the other.
+// The tangent frame is the earth-centred one, moved to the raster's centre on the ellipsoid and rotated, so bounds
+// proven in one hold in the other.
 #include "io/gdal/earth_frame.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ Vector unit(const Vector& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Length along a vertical, in metres; large relative to the rounding of coordinates.
+/// Length of a vertical step, in metres; large relative to the rounding of coordinates.
 constexpr double kRise = 1000;
 
 struct Points {
@@ -60,7 +60,7 @@ class EarthTransform final : public SpaceTransform {
       : forth_(from, earth, is_strict), back_(earth, from, is_strict), centre_x_(centre_x), turn_(turn), up_(up) {}
 
   bool usable() const { return forth_.usable() && back_.usable(); }
-  /// Converts positions to the tangent frame of the axes, or leaves them earth-centred.
+  /// Selects the tangent frame of the axes, or earth-centred positions.
   void settle(const Axes& axes, bool is_tangent) {
     axes_ = axes;
     is_tangent_ = is_tangent;
@@ -156,9 +156,9 @@ Axes axes_of(const EarthTransform& way, const Georeference& geo) {
   return axes;
 }
 
-/// Checks a net of points over the raster, including its edges. kUsage unless it lies within 60 degrees of the raster's
-/// centre, keeps one orientation, and is recovered by the inverse. If x is a longitude, it must also span less than
-/// half a turn.
+/// Checks a net of points over the raster, including its edges. Fails with kUsage unless the net is within 60 degrees
+/// of the raster's centre, keeps one orientation, and is recovered by the inverse. If x is a longitude, the net must
+/// also span less than half a turn.
 Result<void> verify(const EarthTransform& way, const Axes& axes, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   constexpr double kLeastCosine = 0.5, kBack = 1.0 / 1024;

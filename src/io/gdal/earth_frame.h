@@ -11,7 +11,7 @@ namespace scarp::gdal {
 
 struct Georeference;
 
-/// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights.
+/// A three-dimensional CRS with axes in the order x (east, longitude), y (north, latitude), height.
 struct SpaceCrs {
   Crs crs;                      ///< null if none
   std::string vertical;         ///< reference of its heights, such as "EGM96 height"; empty: unknown
@@ -22,8 +22,8 @@ struct SpaceCrs {
 SpaceCrs space_crs_of(const Crs& declared);
 
 /// The frame in space named by `wanted`. REQUIRES: is_in_space().
-/// Warnings are added to `info`. kUsage if the raster's CRS cannot be converted, and for
-/// rasters that extend around a pole or the earth.
+/// Warnings are added to `info`. Fails with kUsage if the raster's CRS cannot be converted, or the raster extends
+/// around a pole or the earth.
 Result<Frame> earth_frame(const Georeference& georeference, const std::string& wanted, RasterInfo& info);
 
 }  // namespace scarp::gdal

@@ -1,4 +1,4 @@
-// Keys of GeoTIFF without a GeoTIFF: GDAL reads them from one of a single sample, made in memory.
+// Reads GeoTIFF keys outside a GeoTIFF: GDAL reads them from a GeoTIFF of one sample, made in memory.
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -21,7 +21,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// A TIFF of one sample in the making, in the processor's own order of bytes.
+/// Builds a TIFF of one sample, in the processor's byte order.
 class SmallTiff {
  public:
   enum Type : std::uint16_t { kText = 2, kShort = 3, kLong = 4, kDouble = 12 };
@@ -31,13 +31,13 @@ class SmallTiff {
   void add(std::uint16_t tag, Type type, std::span<const std::uint8_t> values) {
     const std::size_t size = type == kText ? 1 : type == kShort ? 2 : 8;
     const auto count = static_cast<std::uint32_t>(values.size() / size);
-    if (count * size <= 4) return;  // stands in the entry; no keys are that short
+    if (count * size <= 4) return;  // such values are in the entry; no keys are that short
     add_entry(tag, type, count, static_cast<std::uint32_t>(kHead + values_.size()));
     values_.insert(values_.end(), values.begin(), values.end());
     values_.resize((values_.size() + 7) / 8 * 8);
   }
 
-  /// The sample is the first of the values.
+  /// The first of the values also serves as the sample.
   std::vector<std::uint8_t> finish() const {
     std::vector<std::uint8_t> bytes(kHead);
     const std::uint16_t order = CPL_IS_LSB ? 0x4949 : 0x4D4D, mark = 42;

@@ -1,7 +1,7 @@
-// GeoPackage, by GDAL, in memory: a layer of polygons with heights, one for each triangle.
+// GeoPackage, written by GDAL in memory: a layer with one polygon with heights per triangle.
 //
-// The standard's extensions have geometries for triangles and TINs. But map programs read polygons, and QGIS draws
-// these in three dimensions too.
+// The standard's extensions have geometries for triangles and TINs. But map programs read polygons, and QGIS also draws
+// polygons in three dimensions.
 #include <fmt/format.h>
 #include <gdal.h>
 #include <ogr_api.h>

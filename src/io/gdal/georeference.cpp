@@ -71,7 +71,7 @@ void warn_of_degrees(RasterInfo& info) {
       "metres");
 }
 
-/// East–west lengths in the local frame are true on the centre's parallel only.
+/// In the local frame, east–west lengths are true only on the centre's parallel.
 void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
   const double centre = std::cos(geo.centre()[1] * geo.unit_in_metres);
   double worst = 0;
@@ -98,8 +98,8 @@ Result<Frame> centred_frame(const Georeference& geo, RasterInfo& info) {
   return frame;
 }
 
-/// kUsage unless a net of points over the raster, including its edges, has finite images that neither fold nor tear:
-/// all its triangles keep one orientation.
+/// Fails with kUsage unless a net of points over the raster, including its edges, has finite images that neither fold
+/// nor tear: all triangles keep one orientation.
 Result<void> verify_transform(const Frame& frame, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   const int across = std::min(kNet, geo.cols - 1), down = std::min(kNet, geo.rows - 1);

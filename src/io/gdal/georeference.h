@@ -15,9 +15,9 @@ namespace scarp::gdal {
 /// The georeference that a raster declares.
 struct Georeference {
   int cols = 0, rows = 0;
-  bool located = false;                             ///< true if it has a geotransform
+  bool located = false;                             ///< true if the raster has a geotransform
   std::array<double, 6> pixels{0, 1, 0, 0, 0, 1};   ///< GDAL's geotransform, of pixel corners
-  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same as in a Frame: integer (col, row) are centres
+  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same as in a Frame: integer (col, row) are pixel centres
   Crs crs;                                          ///< null if unknown
   SpaceCrs in_space;                                ///< the CRS with heights; null if unknown
   bool geographic = false;
@@ -34,14 +34,14 @@ struct Georeference {
 Georeference make_georeference(int cols, int rows, const std::optional<std::array<double, 6>>& pixels, Crs crs,
                                SpaceCrs space);
 
-/// Fails with kInput if the geotransform maps all samples to a line or is not finite.
+/// Fails with kInput if the geotransform is not finite or maps all samples to a line.
 Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path);
 
 /// Sets the CRS, cell sizes and warnings of `info`.
 void describe_georeference(const Georeference& georeference, RasterInfo& info);
 
-/// The frame requested by the options. Warnings are added to `info`. kUsage if the CRS is unknown or the conversion
-/// fails for a part of the raster.
+/// The frame requested by the options. Adds warnings to `info`. Fails with kUsage if the CRS is unknown or the
+/// conversion fails for a part of the raster.
 Result<Frame> choose_frame(const Georeference& georeference, const ReadOptions& options, RasterInfo& info);
 
 }  // namespace scarp::gdal

@@ -29,8 +29,8 @@ tl::unexpected<Error> refuse_geotiff(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
 }
 
-/// Blocks are written past GDAL's block cache. In it they would displace blocks of the rasters being read, and blocks
-/// of two sizes fragment memory.
+/// Writes blocks without GDAL's block cache. There they would displace blocks of the rasters being read, and two block
+/// sizes would fragment memory.
 class GdalGeoTiff final : public GeoTiff {
  public:
   GdalGeoTiff(gdal::Dataset dataset, int cols) : dataset_(std::move(dataset)), cols_(cols) {
@@ -63,7 +63,7 @@ class GdalGeoTiff final : public GeoTiff {
   }
 
  private:
-  /// Zeros pad the raster beyond its last column and row.
+  /// Pads with zeros beyond the raster's last column and row.
   void fill_block(const float* samples, int rows, int cols) {
     std::fill(block_.begin(), block_.end(), 0.0f);
     for (int y = 0; y < rows; ++y) {

@@ -25,7 +25,7 @@ using gdal::Passage;
 /// Largest difference in degrees between two geodetic datums treated as equal, for rasters in degrees.
 constexpr double kSameDegrees = 1e-9;
 
-/// A CRS of three dimensions, x before y before heights; null if GDAL does not know it.
+/// A three-dimensional CRS with axes in the order x, y, height; null if GDAL does not know it.
 Crs find_space_crs(const std::string& definition) {
   Crs crs(OSRNewSpatialReference(nullptr));
   if (OSRSetFromUserInput(crs.get(), definition.c_str()) != OGRERR_NONE) return nullptr;
@@ -33,7 +33,7 @@ Crs find_space_crs(const std::string& definition) {
   return crs;
 }
 
-/// Uses PROJ, via the raster's own x and y if the zero belongs to their CRS.
+/// The zero of heights by PROJ, via the raster's own x and y if the zero belongs to their CRS.
 class ProjZero final : public HeightZero {
  public:
   /// `from_degrees`: null if x and y are degrees.
@@ -54,7 +54,7 @@ class ProjZero final : public HeightZero {
   Passage way_;
 };
 
-/// Degrees of the earth, if a conversion exists; else of the raster's own ellipsoid, for another planet.
+/// Degrees on the earth if a conversion exists, else, for another planet, on the raster's own ellipsoid.
 struct Degrees {
   Crs crs;
   Geodetic ellipsoid;
@@ -81,8 +81,8 @@ bool is_same_point(const PointTransform& transform, double x, double y) {
          std::abs(mapped_y - y) < kSameDegrees;
 }
 
-/// True if positions of the raster are recovered from their degrees. Beyond 180° of a cylindrical projection they are
-/// not: the inverse is a turn away.
+/// True if positions of the raster are recovered from their degrees. Beyond 180° of a cylindrical projection, the
+/// inverse is wrong by a whole turn.
 bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   const std::array<double, 6>& a = globe.place.affine;
   const double cell = std::hypot(a[1], a[4]) + std::hypot(a[2], a[5]);

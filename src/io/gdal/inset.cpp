@@ -1,4 +1,4 @@
-// Polygons moved inwards, by GEOS.
+// Moves polygons inwards, by GEOS.
 #include <fmt/format.h>
 #include <ogr_geometry.h>
 
@@ -31,8 +31,8 @@ void collect_polygons(const OGRGeometry& geometry, OGRMultiPolygon& polygons) {
   }
 }
 
-/// Converts rings to valid polygons in units of the distance; self-crossings are resolved even-odd. False if GEOS
-/// fails.
+/// Converts rings to valid polygons in units of the distance; resolves self-crossings by the even-odd rule. False if
+/// GEOS fails.
 bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit, OGRMultiPolygon& polygons) {
   for (std::size_t first = 0, end = 0; first < rings.size(); first = end) {
     OGRPolygon polygon;
@@ -48,7 +48,7 @@ bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit,
   return true;
 }
 
-/// True if coordinates distinguish the distance from 0; otherwise GEOS makes polygons vanish.
+/// True if the rounding of coordinates preserves the distance; otherwise GEOS makes polygons vanish.
 bool is_distance(double distance, const OGRGeometry& polygons) {
   OGREnvelope box;
   polygons.getEnvelope(&box);
@@ -68,8 +68,8 @@ struct Corner {
   Place at, first, last;
 };
 
-/// Merges the middle two of the last four vertices at the intersection of their neighbours' edges. Only if that is
-/// near, on the side to which the ring was moved.
+/// Merges the middle two of the last four vertices at the intersection of their neighbours' edges, if it is near, on
+/// the side to which the ring was moved.
 bool sharpen(std::vector<Corner>& ring, double distance) {
   constexpr double kReach = 1.7320508;  // relative to the distance: a corner of 60 degrees, twice as far away as its
                                         // arc
@@ -87,7 +87,7 @@ bool sharpen(std::vector<Corner>& ring, double distance) {
   return true;
 }
 
-/// Replaces arcs by corners. `distance`: that of the move to the left.
+/// Replaces arcs by corners. `distance`: of the move to the left.
 OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
   const int count = ring.getNumPoints() - 1;
   const auto place = [&](int k) { return Place{ring.getX(k % count), ring.getY(k % count)}; };

@@ -1,7 +1,7 @@
 // GDALBuildVRT() supports one nodata value and no unit, rejects rasters whose first row is the southern one, and shows
 // signed bytes as unsigned. So the virtual raster is written here. Its bands have the tiles' type, nodata value, scale
-// and offset where these agree. Otherwise they are floats with nodata NaN, which no tile uses as a height. A mask
-// represents what a nodata value cannot.
+// and offset where these agree. Otherwise they are floats with nodata NaN, which no tile uses as a height. A mask marks
+// invalid cells that a nodata value cannot mark.
 #include "io/gdal/join.h"
 
 #include <cpl_conv.h>
@@ -206,7 +206,7 @@ class Writer {
   std::string write_mask() const {
     std::string xml = "<MaskBand><VRTRasterBand dataType=\"Byte\">";
     for (const Tile& tile : tiles_) {
-      // Shows all cells of a tile without a mask; nodata values are handled separately.
+      // All cells of a tile without a mask are shown; nodata values are handled separately.
       xml += has_mask(tile) ? write_source(tile, "mask,1", GDT_Byte, "<NODATA>0</NODATA>")
                             : write_source(tile, "1", tile.bands.front().type,
                                            "<ScaleOffset>255</ScaleOffset><ScaleRatio>0</ScaleRatio>");

@@ -29,20 +29,20 @@ struct BandFacts {
 
 /// A raster of a mosaic.
 struct Tile {
-  std::string path, name;  ///< path as given, and name in GDAL
+  std::string path, name;  ///< path as given, and its name in GDAL
   Crs crs;
   SpaceCrs space;
   std::array<double, 6> gt{0, 1, 0, 0, 0, 1};
   int cols = 0, rows = 0, block_cols = 0, block_rows = 0;
-  int from_col = 0, from_row = 0;  ///< first cell, if it is a part of a raster
+  int from_col = 0, from_row = 0;  ///< first cell, if the tile is a part of a raster
   int all_cols = 0, all_rows = 0;  ///< size of the whole raster
   std::vector<BandFacts> bands;
   std::optional<std::pair<int, int>> gap;  ///< result of find_wide_gap()
   int mask_flags = 0;                      ///< GDALGetMaskFlags() of band 1
-  std::int64_t col = 0, row = 0;           ///< position of its first cell relative to the first raster
+  std::int64_t col = 0, row = 0;           ///< position of the first cell relative to the first raster
 
-  /// True if it has a mask other than a band's nodata value or an alpha band. `asked`: a nodata value from the options
-  /// replaces all declared ones.
+  /// True if the tile has a mask other than a nodata value or an alpha band. `asked`: the options give a nodata value,
+  /// which replaces declared ones.
   bool has_mask(bool asked) const;
   bool has_alpha() const;
 };
@@ -53,9 +53,9 @@ Tile describe_raster(GDALDatasetH raster, const std::string& path);
 /// False for 64-bit and complex numbers, which GDAL joins with loss.
 bool can_join(GDALDataType type);
 
-/// The virtual raster of all tiles. Each is read by its own type, nodata value, mask, scale and offset. Where several
-/// are valid, the last one is used. All other metadata are copied from the first raster. `nodata`: as in open_view().
-/// REQUIRES: types that can_join(), equal numbers of bands.
+/// The virtual raster of all tiles. Each tile keeps its own type, nodata value, mask, scale and offset. In overlaps,
+/// the last valid tile is used. All other metadata are copied from the first raster. `nodata`: as in open_view().
+/// REQUIRES: can_join() for all types, and equal numbers of bands.
 Result<Dataset> join_tiles(Session& session, std::span<const Tile> tiles, std::optional<double> nodata);
 
 /// The XML of a virtual float raster of one tile, in which only NaN is nodata.

@@ -21,7 +21,7 @@ namespace {
 using OwnedGeometry = std::unique_ptr<OGRGeometry>;
 using Boundaries = std::vector<LandXmlBoundary>;
 
-/// Those of the surface. Fails if there is none, or several surfaces and no name.
+/// The boundaries of the surface. Fails if there are none, or if there are several surfaces and no name.
 Result<Boundaries> choose(Boundaries all, const std::string& path, const std::string& surface) {
   std::vector<std::string> names;
   for (const LandXmlBoundary& one : all) {
@@ -85,7 +85,7 @@ void add_rings(const OGRPolygon& polygon, const std::string& name, LineSet& set)
   ++set.polygons;
 }
 
-/// Outer boundaries first; then smaller ones inside larger ones.
+/// Sorts outer boundaries first, then by decreasing size.
 void sort_boundaries(Boundaries& boundaries) {
   std::vector<std::pair<double, LandXmlBoundary>> sorted;
   for (LandXmlBoundary& one : boundaries) {
@@ -98,7 +98,7 @@ void sort_boundaries(Boundaries& boundaries) {
   for (auto& [area, one] : sorted) boundaries.push_back(std::move(one));
 }
 
-/// Voids reduce what is larger, islands enlarge it.
+/// Subtracts voids from larger boundaries and adds islands.
 Result<void> make_polygons(Session& session, Boundaries boundaries, const std::string& name, LineSet& set) {
   if (std::none_of(boundaries.begin(), boundaries.end(),
                    [](const LandXmlBoundary& one) { return one.kind == BoundaryKind::kVoid; })) {

@@ -8,8 +8,8 @@
 
 namespace scarp::gdal {
 
-/// The boundaries of a surface: outer ones and islands with voids as their holes. `surface`: empty: the only one with
-/// boundaries. Coordinates and CRS are those of the file. kInput if it has none.
+/// The boundaries of a surface: outer boundaries and islands, with voids as their holes. `surface`: empty: the only one
+/// with boundaries. Coordinates and CRS are those of the file. Fails with kInput if there are none.
 Result<LineSet> read_landxml_lines(Session& session, const std::string& path, const std::string& surface,
                                    const ReadLinesOptions& options);
 

@@ -15,8 +15,8 @@ bool is_there(const std::string& vsi) {
   return VSIStatL(vsi.c_str(), &status) == 0;
 }
 
-/// The file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. In any
-/// file system's syntax, that file's name ends where a part of the name ends.
+/// Adds the file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. In
+/// any file system's syntax, the file's name ends at the end of a part of the name.
 void add_container(const std::string& name, std::set<std::string>& seen) {
   if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
   constexpr const char* kBeginnings = "/{,=";
@@ -68,7 +68,7 @@ void add_files(const std::string& path, std::set<std::string>& seen) {
   if (!dataset) return;
   char** files = GDALGetFileList(dataset.get());
   for (char** file = files; file != nullptr && *file != nullptr; ++file) {
-    // GDAL lists the sources of a VRT, but not the sources of these.
+    // GDAL lists the sources of a VRT, but not the sources of those sources.
     add_container(*file, seen);
     if (seen.insert(*file).second && EQUAL(CPLGetExtension(*file), "vrt")) add_files(*file, seen);
   }

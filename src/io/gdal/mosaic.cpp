@@ -35,7 +35,7 @@ std::string gdalwarp(const std::string& options, const Tile& tile) {
                      file_word(tile.path), new_file(".tif"));
 }
 
-/// A command that copies the raster with new metadata: many formats accept none afterwards.
+/// A command that copies the raster with new metadata, since many formats accept no later changes.
 std::string edit_command(const std::string& options, const std::string& path) {
   return fmt::format("{} && gdal_edit.py {} {}", translate_command("", path), options, new_file(".tif"));
 }
@@ -198,7 +198,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
                      to_grid);
 }
 
-/// True if two rasters store heights the same way. Otherwise they are interpolated separately.
+/// True if two rasters store heights in the same way. Others are interpolated separately.
 bool hold_alike(const Tile& first, const Tile& tile) {
   return std::equal(first.bands.begin(), first.bands.end(), tile.bands.begin(), tile.bands.end(),
                     [](const BandFacts& a, const BandFacts& b) {
@@ -224,8 +224,8 @@ Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
   return gap;
 }
 
-/// Finds the cells of each tile relative to the first one. If x is periodic, tiles on both sides of its end are placed
-/// next to each other. True if one was moved.
+/// Finds the cells of each tile relative to the first tile. If x is periodic, tiles on both sides of its end are placed
+/// next to each other. True if a tile was moved.
 Result<bool> place_tiles(std::vector<Tile>& tiles) {
   constexpr double kCloser = 0.75;
   const std::array<double, 6>& gt = tiles.front().gt;
@@ -302,7 +302,7 @@ constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
 /// Metadata of tile sets in MBTiles, which GDAL opens as rasters.
 constexpr const char *kGeneratorKey = "generator", *kScarp = "scarp ";
 
-/// Removes rasters that Scarp derived from the others, keeping the order of names; returns their names, without
+/// Removes rasters that Scarp derived from the others; the rest keep their order. Returns the removed names, without
 /// folders.
 std::vector<std::string> take_derived(const std::vector<bool>& is_derived, std::vector<std::string>& rasters) {
   std::vector<std::string> kept, left;

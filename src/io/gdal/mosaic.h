@@ -1,4 +1,4 @@
-// Several rasters on one grid as one.
+// Joins several rasters on one grid.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,20 @@
 
 namespace scarp::gdal {
 
-/// Marks the file as an approximation or an error raster of another; false on failure.
+/// Marks the raster as derived from another: an approximation or its errors. Returns false on failure.
 bool mark_derived(GDALDatasetH raster);
 
 /// The paths, with each folder replaced by its rasters, sorted by name. Rasters marked as derived are skipped unless
-/// all are; their names are added to `left_out`. Fails with kInput for a folder without rasters.
+/// all are derived. The names of skipped rasters are added to `left_out`. Fails with kInput for a folder without
+/// rasters.
 Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths,
                                                 std::vector<std::string>& left_out);
 
-/// The first and end columns between the two sides of a raster that spans most of the earth and is declared empty
-/// there: a virtual raster of files on both sides of the 180th meridian.
+/// The first and end columns of the gap in a virtual raster of files on both sides of the 180th meridian. It spans most
+/// of the earth and is declared empty in the gap.
 std::optional<std::pair<int, int>> find_wide_gap(GDALDatasetH raster);
 
-/// A virtual raster of all paths; see RasterView::more. `nodata`: as in open_view(). `words` receives a description of
+/// A virtual raster of all paths; see RasterView::more. `nodata`: as in open_view(). Sets `words` to a description of
 /// the result. REQUIRES: at least one path.
 Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& paths, std::optional<double> nodata,
                             std::string& words);

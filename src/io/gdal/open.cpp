@@ -137,7 +137,7 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
   VSIFCloseL(file);
   const std::string kind = describe_kind(path, read_head(vsi), status.st_size);
   if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  // A driver that recognises the file but fails (a truncated TIFF) has the better message.
+  // A driver that recognises the file but fails (a truncated TIFF) has a better message.
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_RASTER); driver && gave_reason) {
     if (EQUAL(GDALGetDriverShortName(driver), "XYZ")) {
       return fail(ErrorKind::kInput,

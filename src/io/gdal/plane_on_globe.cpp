@@ -13,7 +13,7 @@ namespace scarp {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
-/// Cells to either side of the centre for measuring the projection's turn and scale there.
+/// Distance from the centre, in cells, for measuring the projection's rotation and scale there.
 constexpr double kReach = 16;
 /// Raster positions examined each way.
 constexpr int kPlaces = 17;
@@ -33,7 +33,8 @@ class Places {
   struct At {
     Point place{}, up{}, east{}, north{};
   };
-  /// Cells east and north of the centre sample, and a height above the zero. Not finite if there is no position.
+  /// The position for cells east and north of the centre sample, and a height above the zero. Not finite if there is
+  /// none.
   At at(double east, double north, double height) const {
     const std::array<double, 6>& a = globe_.place.affine;
     const double col = static_cast<double>(raster_.centre_col()) + east,
@@ -74,7 +75,7 @@ Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRast
   const Places::At centre = places.at(0, 0, 0);
   const Point x = (0.5 / (kReach * raster.cell_x)) * (places.at(kReach, 0, 0).place - places.at(-kReach, 0, 0).place);
   const Point y = (0.5 / (kReach * raster.cell_y)) * (places.at(0, kReach, 0).place - places.at(0, -kReach, 0).place);
-  // Along the ground: the slope of the heights' zero there does not turn the plane.
+  // Directions along the ground, so that the slope of the heights' zero does not rotate the plane.
   const auto along = [&](const Point& way) { return way - inner(way, centre.up) * centre.up; };
   const Point east = along(x), north = along(y);
   PlaneOnGlobe plane;

@@ -1,4 +1,4 @@
-// An image: all its bands as channels.
+// Reads an image: all its bands as channels.
 #include <fmt/format.h>
 
 #include <algorithm>

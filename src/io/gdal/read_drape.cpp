@@ -1,4 +1,4 @@
-// An image, warped to the position of a raster.
+// Reads an image, warped to the position of a raster.
 #include <fmt/format.h>
 #include <gdal_alg.h>
 
@@ -17,7 +17,7 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-/// Number of the image's pixels along the raster's sides; nothing without a position there.
+/// Number of the image's pixels along the raster's sides; nothing if the conversion fails.
 std::optional<std::array<double, 2>> count_pixels(GDALDatasetH image, const Transform6& place, const Crs& crs) {
   const Dataset square = make_target(place, crs, 1, 1);
   if (!square) return {};
@@ -40,7 +40,7 @@ std::array<int, 2> choose_size(const std::array<double, 2>& pixels, int size) {
   return {side(pixels[0]), side(pixels[1])};
 }
 
-/// White where the image is transparent.
+/// Makes transparent pixels white.
 void lay_on_white(WarpedPixels warped, Drape& drape) {
   const std::size_t pixels = warped.alpha.size();
   std::size_t covered = 0;

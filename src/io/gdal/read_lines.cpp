@@ -40,8 +40,8 @@ struct NamedLayer {
   std::string file, layer;
 };
 
-/// "file:layer" is distinguished from a name that contains a colon ("C:\lines.shp", "PG:dbname=…", a URL) by trying to
-/// find it.
+/// Distinguishes "file:layer" from a name that contains a colon ("C:\lines.shp", "PG:dbname=…", a URL) by a search for
+/// the file.
 NamedLayer split_layer(const std::string& path) {
   const std::size_t colon = path.rfind(':');
   const bool may_name_layer = colon != std::string::npos && colon > 0 && colon + 1 < path.size();
@@ -260,7 +260,7 @@ Result<void> place(const Crs& crs, const std::string& wanted, LineSet& set) {
   return transform(crs, to, set);
 }
 
-/// Converts heights of a known unit to units of `unit_in_metres`.
+/// Converts heights in a known unit to units of `unit_in_metres`.
 void convert_heights(OGRLayerH layer, std::optional<int> height_field, double unit_in_metres, LineSet& set) {
   HeightUnit unit = space_crs_of(declared_layer_crs(layer)).unit;
   const char* field =

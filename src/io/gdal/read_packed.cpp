@@ -3,15 +3,16 @@
 //   terrarium:  R·256 + G + B/256 − 32768            steps of 1/256 m: exact in float32
 //   mapbox:     −10000 + (R·65536 + G·256 + B)·0.1   steps of 0.1 m: rounded to float32, the rounding recorded
 //
-// Both compute a height from one integer, 24 bits in three colours. Where a colour reaches its end it wraps around, and
-// the next higher one increases by one. Colours that are interpolated, or changed slightly by lossy compression, jump
-// there. Two tests detect this:
+// Both compute a height from one integer, 24 bits in three colours. A colour that exceeds its largest value wraps
+// around, and the next higher colour increases by one. There, interpolation or lossy compression of colours makes
+// heights jump. Two tests detect such jumps:
 //
-//   - Lossy compression changes a colour by one, and causes spikes of about one step of it. Spikes of real land cross
-//     colour steps no more often than their size implies.
-//   - Interpolation sweeps through a colour where it wraps around. A sample between two close ones, on either side of
-//     such a height, then differs from both in 40 % of cases or more, some below and some above. Real land is
-//     independent of the wraps: it is as rough at heights a quarter, a half and three quarters of a step above.
+//   - Lossy compression changes a colour by one, which causes spikes of about one colour step. Spikes of real land
+//     cross colour steps no more often than their size implies.
+//   - Interpolation passes through all values of a colour that wraps around. Between two close samples on opposite
+//     sides of such a height, a sample then differs from both in 40 % of cases or more, sometimes below and sometimes
+//     above. Real land is independent of the wraps: it is as rough at heights a quarter, a half and three quarters of a
+//     step above.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ std::uint32_t number_of(const std::uint8_t* rgb) {
   return static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
 }
 
-/// Counts the middle one of three neighbours if it differs from both others, which are close to each other. On
+/// Counts the middle one of three neighbours if it differs from both others and these are close to each other. On
 /// unmodified land, spikes of that size cross a colour step in somewhat more than half of all cases.
 void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Colours& colours) {
   const auto [low, high] = std::minmax(a, c);
@@ -58,12 +59,13 @@ void count_torn(std::uint32_t a, std::uint32_t b, std::uint32_t c, Findings::Col
   }
 }
 
-/// All rows of a tile; for a large raster only some, with as many samples in all.
+/// The interval between examined rows: 1 for a tile; larger for a large raster, to limit the samples.
 std::int64_t every_row(int cols, int rows) { return 1 + std::int64_t{cols} * rows / (1 << 18); }
 
 constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one detects enlargement by more than three
 
-/// For three samples whose outer two are close: counts the middle one at each quarter of a colour step between these.
+/// For three samples with close outer ones, counts the middle one at each quarter of a colour step between the outer
+/// ones.
 void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t lag, std::size_t first_colour,
                  Findings::Colours& colours) {
   const auto [low, high] = std::minmax(a, c);
@@ -86,7 +88,7 @@ void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t 
   }
 }
 
-/// Steps of the middle colour are 1 m in terrarium, the only change of heights in whole metres.
+/// In terrarium, steps of the middle colour are 1 m, and heights in whole metres change only by these.
 std::size_t first_colour(Decode decode) { return decode == Decode::kTerrarium ? 1 : 0; }
 
 /// True if more samples differ at a colour's wraps than on real land.
@@ -209,7 +211,7 @@ class PackedReader : public WindowReader {
   std::vector<std::uint8_t> pixels_, mask_;
   std::uint32_t before_ = kNoNumber, here_ = kNoNumber;  // the last two in the row
   std::vector<std::uint32_t> row_;
-  std::int64_t every_;  // every how many rows one is examined as a whole
+  std::int64_t every_;  // interval between rows examined as a whole
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ std::string make_lines(const std::string& path) {
                      new_file(".gpkg"), file_word(path));
 }
 
-/// The layers of the points: those of `wanted`, a list of names; else the first of points, else of lines.
+/// The layers to read: those named by `wanted`, else the first layer of points, else of lines.
 Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
   const std::vector<VectorLayer> layers = list_layers(dataset);
   if (layers.empty()) return fail(ErrorKind::kInput, path + ": holds no points or lines");

@@ -190,7 +190,7 @@ Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
   return read_samples(session, std::move(opened), options);
 }
 
-/// Samples that remain in their file.
+/// Reads samples from their file on demand.
 class FileSource : public SampleSource {
  public:
   FileSource(UnreadRaster unread, std::unique_ptr<WindowReader> reader, std::string path)
@@ -234,7 +234,7 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
   return refuse_beyond(reader.findings(), info.path, options);
 }
 
-/// Leaves the samples in their file.
+/// Makes a source of the samples' file.
 Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
   // Bands of rows are read in sequence. A file in blocks is decoded once if the cache holds a row of blocks and the
   // start of the next.

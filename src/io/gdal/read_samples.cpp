@@ -3,9 +3,9 @@
 // Problem: bands have a dozen types, with or without scale, and nodata declared in several ways. Memory suffices for
 // only one copy of the samples. A damaged file must never appear as flat ground.
 //
-// Idea: types whose every value is a float32 (8 and 16 bits, float32) are read by GDAL directly into the samples. All
-// others are read in windows of doubles (64-bit integers: of their own type). There nodata is compared, scale and
-// offset are applied, and the distance to the nearest float32 is recorded. With that reserve, a bound on the samples
+// Idea: GDAL reads types with only float32 values (8 and 16 bits, float32) directly into the samples. Other types are
+// read in windows of doubles (64-bit integers: of their own type). In a window, nodata is compared, scale and offset
+// are applied, and the distance to the nearest float32 is recorded. Increased by this distance, a bound on the samples
 // also holds for the file.
 #include "io/gdal/read_samples.h"
 
@@ -32,10 +32,10 @@ constexpr std::size_t kCodes = 65536;
 constexpr float kNodataSample = std::numeric_limits<float>::quiet_NaN();
 constexpr double kLargest = std::numeric_limits<float>::max();
 
-/// "−3.40282e+38" and the like mean the lowest float, however few digits remain; no terrain is that high.
+/// "−3.40282e+38" and similar texts mean the lowest float, however few digits remain; no terrain has such heights.
 constexpr double kNearLargest = 3.4e38;
 
-/// GDAL's rule, made robust: equal after conversion of the declared value to the band's type.
+/// GDAL's rule, made robust: a sample is nodata if it equals the declared value, converted to the band's type.
 template <class Raw>
 class NodataTest {
  public:
@@ -82,9 +82,9 @@ double distance(Integer raw, float rounded) {
   return static_cast<double>(difference < 0 ? -difference : difference);
 }
 
-/// Bound of the error of GDAL's mean: it adds float32 values and stores a float32, for any requested type. Sums of
-/// integer cells are exact. If mean · cells is an integer, so is mean · cells · counted. It differs from sum · cells by
-/// less than 1, so they are equal, and the mean is exact.
+/// Bound of the error of GDAL's mean: GDAL adds float32 values and stores a float32, for any requested type. Sums of
+/// integer cells are exact. If mean · cells is an integer, so is mean · cells · counted. This product differs from sum
+/// · cells by less than 1, so both are equal, and the mean is exact.
 double rounding_of_mean(double mean, const Means& means) {
   if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
   const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;

@@ -34,17 +34,17 @@ struct BandSense {
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
   Means means;
-  std::string depths;  ///< the reason to assume depths, counted downwards; else empty
+  std::string depths;  ///< the reason to assume depths, measured downwards; else empty
 };
 
-/// kInput if the band does not exist, or is complex.
+/// Fails with kInput if the band does not exist or is complex.
 Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path, const ReadOptions& options,
                                   RasterInfo& info);
 
-/// Warns of bands unsuitable as heights, or as values: colours, or indices of colours.
+/// Warns of bands that are unsuitable as heights or values: colours, or indices of colours.
 void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_values, RasterInfo& info);
 
-/// The findings of reading.
+/// Statistics collected by reading.
 struct Findings {
   std::uint64_t infinities = 0;  ///< infinities and values beyond float32, converted to nodata
   double rounding = 0;           ///< largest |value − float32 sample|
@@ -57,18 +57,19 @@ struct Findings {
   struct Colours {
     std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< black excluded; on_earth_otherwise: by the
                                                                     ///< other encoding
-    /// Samples that differ from both neighbours: where the colour with the value 2^8 or 2^16 changes, and elsewhere.
+    /// Numbers of samples that differ from both neighbours: where the colour with the value 2^8 or 2^16 changes, and
+    /// elsewhere.
     std::array<std::uint64_t, 2> torn{}, whole{};
     std::array<std::uint32_t, 2> most{};  ///< largest difference of torn samples
-    /// Pairs of neighbours on either side of a height where a colour wraps around, and those of them with a differing
-    /// sample between. By lag, by colour, and by the quarter of the colour's value by which that height is shifted.
+    /// Numbers of pairs of samples on opposite sides of a height where a colour wraps around, and of such pairs with an
+    /// outlier between them. By lag, by colour, and by the quarters of the colour's value that shift this height.
     struct Line {
       std::uint64_t crossed = 0, off = 0;
     };
     std::array<std::array<std::array<Line, 4>, 2>, 2> lines{};
-    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< largest difference at the wrapping height itself
-    /// Number of samples at the wrapping height: below both neighbours, and above both; by the last three bits of the
-    /// number of wraps.
+    std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< largest difference at the unshifted height
+    /// Numbers of samples at the wrapping height that are below both neighbours, and above both; by the last three bits
+    /// of the number of wraps.
     std::array<std::array<std::array<std::array<std::uint64_t, 2>, 8>, 2>, 2> sides{};
 
     void add(const Colours& further);
@@ -83,7 +84,7 @@ struct Findings {
   }
 };
 
-/// Reads windows of heights, nodata as NaN. Not thread-safe.
+/// Reads windows of heights, with nodata as NaN. Not thread-safe.
 class WindowReader {
  public:
   virtual ~WindowReader() = default;
@@ -110,33 +111,32 @@ struct ReadHandle {
 /// Opens the raster again.
 using OpenAgain = std::function<std::optional<ReadHandle>()>;
 
-/// Reads the raster of `band` into field.samples (already allocated) in windows of a few MB aligned with the file's
-/// blocks; on several threads if `open_again` is not empty. Sets field.sample_rounding. Fails with kInput as soon as
+/// Reads the raster of `band` into field.samples (already allocated), in windows of a few MB aligned with the file's
+/// blocks, on several threads if `open_again` is not empty. Sets field.sample_rounding. Fails with kInput as soon as
 /// GDAL reports a failure, and with kCancelled if the callback requests it.
 Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
                               const ReadOptions& options, OwnedHeightField& field);
 
-/// The same for several bands of one raster, each into its own field. Each window is read for all bands before the
-/// next, so that interleaved files are decoded once.
+/// The same for several bands of one raster, each into its own field. Each window is read for all bands before the next
+/// window, so that interleaved files are decoded once.
 Result<void> read_bands(Session& session, std::span<const BandSense> bands, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities);
 
-/// True if all possible values of the band are float32, so that nothing is rounded.
+/// True if float32 represents all possible values of the band exactly.
 bool is_float32(const BandSense& sense);
 /// True if the band's samples can be stored as 16-bit codes.
 bool has_codes(const BandSense& sense);
-/// Reads such a band as codes into field.source. Sets field.sample_rounding and the range of field.info; counts
-/// infinities. Fails as read_windows(), and with kInput if memory cannot be allocated.
+/// Reads a band with has_codes() as codes into field.source. Sets field.sample_rounding and the range of field.info;
+/// counts infinities. Fails as read_windows(), and with kInput if memory cannot be allocated.
 Result<void> read_codes(Session& session, const BandSense& sense, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities);
 
-/// Warns of heights that were probably damaged as colours.
-/// `loss`: result of find_loss().
+/// Warns of heights probably damaged by processing their colours. `loss`: result of find_loss().
 void doubt_colours(const Findings& findings, Decode decode, const std::string& loss, RasterInfo& info);
 
-/// kInput unless the dataset has 3 or 4 bands of unsigned bytes.
+/// Fails with kInput unless the dataset has 3 or 4 bands of unsigned bytes.
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path);
-/// The file's lossy compression, such as "JPEG"; else empty.
+/// The file's lossy compression, such as "JPEG"; empty if lossless.
 std::string find_loss(GDALDatasetH dataset);
 
 }  // namespace scarp::gdal

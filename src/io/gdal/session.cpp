@@ -37,7 +37,7 @@ void register_drivers() {
   }
 }
 
-/// HDF5 prints its own errors. It is loaded with GDAL, or not at all, so its functions are found by name.
+/// HDF5 prints its own errors. It may not be loaded with GDAL, so its functions are found by name.
 struct Hdf5 {
   using Get = int (*)(std::int64_t, Hdf5Errors::Print*, void**);
   using Set = int (*)(std::int64_t, Hdf5Errors::Print, void*);

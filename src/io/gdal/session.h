@@ -9,8 +9,8 @@
 
 namespace scarp::gdal {
 
-/// Grows GDAL's block cache, which all files of the process share, to at least this much above its 8 MB; not if
-/// GDAL_CACHEMAX is set.
+/// Grows GDAL's block cache, which all files of the process share, to at least 8 MB + `bytes`, unless GDAL_CACHEMAX is
+/// set.
 void widen_block_cache(std::uint64_t bytes);
 
 /// While it lives, HDF5 prints no errors in this thread.
@@ -29,20 +29,20 @@ class Hdf5Errors {
 };
 
 /// While a Session lives, messages of GDAL, PROJ and HDF5 in this thread are collected instead of printed, and no files
-/// are written next to inputs. For remote files, options for cheap and finite range requests are set for this thread
-/// unless the user has set them. The first Session of a process registers GDAL's drivers, except those that hostile
-/// files crash or hang (unless drivers are registered already). It limits GDAL's block cache to 8 MB unless
-/// GDAL_CACHEMAX is set. Sessions may be nested; each must end in the thread that began it.
+/// are written next to inputs. For remote files, options for cheap range requests with time limits are set for this
+/// thread unless the user has set them. The first Session of a process registers GDAL's drivers unless drivers are
+/// registered already. It excludes drivers that hostile files can crash or hang. It limits GDAL's block cache to 8 MB
+/// unless GDAL_CACHEMAX is set. Sessions may be nested; each must end in the thread that began it.
 class Session {
  public:
   explicit Session(bool remote = false);
-  /// In another thread, or nested, for parallel work on a local file; does not change HDF5.
+  /// For another thread, or nested, for parallel work on a local file; does not silence HDF5.
   explicit Session(const Session& first);
   ~Session();
   Session& operator=(const Session&) = delete;
 
   bool failed() const { return !failures_.empty(); }
-  /// GDAL's error messages since clear(), as the end of a sentence; "no reason given" if none.
+  /// GDAL's error messages since clear(), as the end of a sentence; "no reason given" without messages.
   std::string reason() const;
   /// True if memory ran out.
   bool out_of_memory() const { return out_of_memory_; }

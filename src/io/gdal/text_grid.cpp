@@ -22,7 +22,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// The CRS that gdal_edit.py wrote next to the text.
+/// The CRS in the .aux.xml file that gdal_edit.py wrote next to the text.
 Crs find_crs_beside(const std::string& path) {
   VSIStatBufL status{};
   if (VSIStatL((path + ".aux.xml").c_str(), &status) != 0) return nullptr;

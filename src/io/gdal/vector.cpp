@@ -73,7 +73,7 @@ Result<int> find_field(OGRLayerH layer, const std::string& path, const std::stri
 
 namespace {
 
-/// Entities of the model, not of the paper, that are no texts.
+/// Selects entities of the model (not of the paper) other than texts.
 constexpr const char* kDrawn = "Text IS NULL AND PaperSpace IS NULL";
 
 std::vector<VectorLayer> list_drawn_layers(OGRLayerH entities) {

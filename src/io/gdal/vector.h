@@ -25,21 +25,21 @@ struct DestroyGeometry {
 };
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
-/// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput in one sentence. `what` is wanted there
-/// ("points"); `expected` describes all supported files ("vector data that GDAL can read").
+/// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput in one sentence, in which `what` is the
+/// wanted data ("points") and `expected` describes all supported files ("vector data that GDAL can read").
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected);
 
-/// The index of the attribute `name` of a layer. kInput if it does not exist, with a list of those that do.
+/// The index of the attribute `name` of a layer. If absent, fails with kInput and a list of existing attributes.
 Result<int> find_field(OGRLayerH layer, const std::string& path, const std::string& name);
 
-/// A layer as its user sees it. GDAL keeps all layers of a drawing (DXF) in one, of which open() shows a part.
+/// A layer as its user sees it. GDAL has one layer for all layers of a drawing (DXF); open() filters it.
 struct VectorLayer {
   OGRLayerH of = nullptr;
-  std::string name, filter;  ///< filter: empty unless of a drawing
+  std::string name, filter;  ///< filter: empty unless in a drawing
 
   OGRLayerH open() const;
 };
-/// All layers; of a drawing those with other entities than texts, by name. Cost: a drawing is read once.
+/// All layers; in a drawing, those with entities other than texts, sorted by name. Cost: reads a drawing once.
 std::vector<VectorLayer> list_layers(GDALDatasetH dataset);
 /// Their names, separated by commas.
 std::string layer_names(const std::vector<VectorLayer>& layers);
@@ -49,8 +49,8 @@ Crs declared_layer_crs(OGRLayerH layer);
 /// The CRS of a layer; null if the file declares it undefined (GeoPackage's srs_id 0 and -1).
 Crs layer_crs(OGRLayerH layer);
 
-/// Calls add(feature) for the features of a layer, until it fails. Fails with kCancelled if `progress` requests it, and
-/// with kInput if the layer cannot be read completely.
+/// Calls add(feature) for the features of a layer until add() fails. Fails as add(), with kCancelled if `progress`
+/// requests it, and with kInput if the layer cannot be read completely.
 Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,
                           const std::function<Result<void>(OGRFeatureH)>& add);
 

@@ -108,14 +108,14 @@ Result<Dataset> open_window(Session& session, GDALDatasetH whole, const std::str
     GDALRasterBandH said = GDALGetRasterBand(whole, k), band = GDALGetRasterBand(made.get(), k);
     int has_nodata = 0;
     const double nodata = GDALGetRasterNoDataValue(said, &has_nodata);
-    // a nodata value that the type cannot represent was replaced by a possible one
+    // GDAL replaced a nodata value that the type cannot represent
     if (has_nodata != 0 && can_join(GDALGetRasterDataType(said))) GDALSetRasterNoDataValue(band, nodata);
   }
   return finish_view(session, whole, failed == 0 ? made.get() : nullptr, path);
 }
 
-/// Means of the valid cells. Resampling of a virtual raster would average nodata too; warping does not. The mean of no
-/// cell is NaN, since any other value may be a mean. Warping uses columns and rows as coordinates, which are exact and
+/// Means of the valid cells, by warping: resampling of a virtual raster would average nodata, too. The mean of no cell
+/// is NaN, since any other value may be a mean. The coordinates for warping are columns and rows, which are exact and
 /// begin at the top.
 Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
                            std::optional<double> nodata, const std::string& type) {

@@ -16,15 +16,16 @@ namespace scarp::gdal {
 
 using Transform6 = std::array<double, 6>;
 
-/// Side of the square for image and raster if neither has a position; pixels of size 1 would mean no position to GDAL.
+/// Side of the square on which image and raster lie if neither has a position. GDAL would interpret pixels of size 1 as
+/// no position.
 constexpr double kNowhere = 0.7;
 
-/// The image with bands red, green, blue, and alpha if present; palette indices are replaced by colours. `located`:
-/// false places it on the square. Fails with kInput unless it has 8 bits.
+/// The image with bands red, green, blue, and alpha if present; colours replace palette indices. `located`: false
+/// places it on that square. Fails with kInput unless it has 8 bits.
 Result<Dataset> arrange_bands(Session& session, GDALDatasetH image, const std::string& path, bool located);
 
-/// An in-memory picture with a georeference: red, green, blue, alpha. `place`: transform of one pixel that covers the
-/// picture.
+/// An in-memory picture with a georeference: red, green, blue, alpha. `place`: geotransform of a single pixel that
+/// covers the picture.
 Dataset make_target(const Transform6& place, const Crs& crs, int width, int height);
 
 /// Warps the image to the target, bilinearly. Fails with kInput, and with kCancelled.

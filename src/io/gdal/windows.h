@@ -20,9 +20,9 @@ struct Window {
 
 constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
-/// The order of reading a raster, in which each of the file's blocks is read once. A window is whole blocks, as many as
-/// fit kWindowSamples, and full rows where blocks are full rows. Larger blocks are read in successive slices: windows
-/// of one stack.
+/// The order of reading a raster, in which each block of the file is read once. A window consists of whole blocks, as
+/// many as fit kWindowSamples, and of full rows if blocks are full rows. Larger blocks are read in successive slices:
+/// the windows of one stack.
 class WindowOrder {
  public:
   WindowOrder(GDALRasterBandH band, int cols, int rows);
@@ -30,7 +30,7 @@ class WindowOrder {
   /// Number of stacks; rows of stacks start at the top.
   std::size_t count() const { return across_ * ((static_cast<std::size_t>(rows_) - 1) / stack_rows() + 1); }
   Window stack(std::size_t i) const;
-  /// Rows of a window; more than the stack has if it is a single window.
+  /// Rows of a window; may exceed the rows of a stack, which is then a single window.
   int rows_at_once() const { return size_.rows; }
   /// Number of stacks that fit the block cache at once.
   std::size_t most_at_once() const { return most_at_once_; }
@@ -54,7 +54,7 @@ std::string name_damaged_rows(Session& session, const Window& window, Read read)
 }
 
 /// Calls read(window) -> bool once. Fails with kInput, naming `path`, if it returns false or GDAL has reported a
-/// failure (a driver may report one and still return zeros).
+/// failure: a driver may report a failure and still return zeros.
 template <class Read>
 Result<void> read_or_explain(Session& session, const Window& window, const std::string& path, Read read) {
   session.clear();

@@ -1,8 +1,9 @@
-// DXF of AutoCAD's release 12, which every CAD program reads: pairs of lines, a number that defines the next line. A
-// triangle is a 3DFACE, whose fourth corner repeats the third. Corners are positions only, and are welded on reading.
+// DXF of AutoCAD's release 12, which every CAD program reads. It consists of pairs of lines: a group number and a
+// value. A triangle is a 3DFACE whose fourth corner repeats the third. Corners are only positions, and are welded on
+// reading.
 //
-// Lines of group 999 are comments. They hold the mesh's metadata, split at the 255 bytes that a line of release 12 may
-// have.
+// Lines of group 999 are comments. They hold the mesh's metadata, split into lines of at most 255 bytes, the limit of
+// release 12.
 
 #include <fmt/format.h>
 
@@ -140,9 +141,9 @@ class DxfReader {
   TextCursor cursor_;
   bool begins_section_ = false, in_entities_ = false, in_face_ = false, has_ended_ = false;
   std::array<std::array<double, 3>, 4> corners_{};  // corners of the current face
-  unsigned seen_ = 0;                               // coordinates read so far, three bits a corner
+  unsigned seen_ = 0;                               // coordinates read so far, three bits per corner
   std::vector<double> places_;
-  std::string comment_;  // current comment, as read so far
+  std::string comment_;  // current comment so far
   std::optional<std::array<double, 3>> origin_;
 };
 

@@ -1,4 +1,4 @@
-// GLB: glTF 2.0 in one file. A JSON chunk describes one binary chunk of arrays by vertex and indices.
+// GLB: glTF 2.0 in one file. A JSON chunk describes one binary chunk of per-vertex arrays and indices.
 //
 // glTF has y up and is right-handed: (x, y, z) becomes (x, z, −y). That is a rotation, so the winding does not change.
 // Positions are float32 offsets, or numbers of a grid. The origin is the translation of the only node, since JSON keeps
@@ -210,7 +210,7 @@ class GlbWriter {
       json_["textures"] = Json::array();
     }
     if (has_images()) {
-      // Clamped: the image ends where the mesh ends.
+      // Clamped, since the image ends at the mesh's border.
       constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
       json_["samplers"] =
           Json::array({{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});

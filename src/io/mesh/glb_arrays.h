@@ -1,7 +1,7 @@
 // The arrays of a possibly hostile GLB file: accessors, views, and compressed views.
 //
-// Everything in the file is verified: every index against the array it refers to, every accessor against its view,
-// every view against the binary chunk or a decoded stream.
+// Verifies every index against the array it refers to, every accessor against its view, and every view against the
+// binary chunk or a decoded stream.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct GlbItems {
   const std::uint8_t* data = nullptr;
   std::uint64_t count = 0, stride = 0;
   int component_type = 0;
-  bool is_normalized = false;  ///< integers represent fractions of their largest value
+  bool is_normalized = false;  ///< integers represent fractions of their type's maximum
 
   std::uint64_t component_size() const;
   /// Component k of item i.
@@ -39,7 +39,7 @@ class GlbArrays {
  protected:
   bool refuse(std::string why);
   static const Json* member(const Json& object, const char* key);
-  /// True for a primitive declared as a skirt below a tile's edges, not part of the surface.
+  /// True for a primitive declared as a skirt below a tile's edges, which is not part of the surface.
   static bool is_skirt(const Json& primitive);
   /// The non-negative integer `key` of `object`, or `missing` if absent.
   bool read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value);
@@ -48,7 +48,7 @@ class GlbArrays {
   /// The items of an accessor of a type such as "VEC3".
   bool find_items(std::uint64_t accessor, std::string_view type, GlbItems& items);
 
-  /// Bytes, and the stride of the view; 0 if not given.
+  /// The bytes of a view, and its stride; 0 if not given.
   struct View {
     std::span<const std::uint8_t> bytes;
     std::uint64_t stride = 0;

@@ -26,7 +26,7 @@ struct Interval {
 
 double as_float32(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// The coarsest of cell, cell / 2 … cell / 256 of which all coordinates are multiples; 0 if none is.
+/// The coarsest of cell, cell / 2 … cell / 256 that divides all coordinates; 0 if none does.
 double find_step(const Mesh& mesh, std::size_t axis, double cell) {
   constexpr double kFinest = 256;
   constexpr double kRounding = 0x1p-20;  // rounding of a double, far from the origin
@@ -41,7 +41,7 @@ double find_step(const Mesh& mesh, std::size_t axis, double cell) {
   return unit * static_cast<double>(std::uint64_t{1} << std::countr_zero(bits));
 }
 
-/// The largest power of two of which all heights are multiples.
+/// The largest power of two that divides all heights.
 double find_height_step(const Mesh& mesh) {
   int exponent = std::numeric_limits<int>::max();
   for (std::size_t i = 2; i < mesh.positions.size(); i += 3) {
@@ -54,7 +54,7 @@ double find_height_step(const Mesh& mesh) {
   return exponent == std::numeric_limits<int>::max() ? 1 : std::ldexp(1.0, exponent);
 }
 
-/// Keeps twelve significant bits: the others are 0, which compresses to nothing.
+/// Rounds to twelve significant bits. The others become 0, which compresses to nothing.
 float round_significand(double value) {
   int power = 0;
   const double digits = std::frexp(value, &power);

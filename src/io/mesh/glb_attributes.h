@@ -1,4 +1,4 @@
-// Arrays of a GLB file by vertex: float32, or smaller numbers if compressed.
+// The per-vertex arrays of a GLB file: float32, or smaller numbers if compressed.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct GlbGrid {
   std::array<double, 3> number(const double* offsets) const;
 };
 
-/// The coarsest grid, for cells of this size, that represents every position exactly; else a plain one.
+/// The coarsest grid, for cells of this size, that represents every position exactly; else the plain grid.
 GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
 /// True if the grid represents x and y exactly.
 bool holds_positions(const GlbGrid& grid, const Mesh& mesh);
@@ -49,7 +49,7 @@ bool colors_say_channels(const Mesh& mesh);
 /// Represents a missing channel value, as declared in the primitive's extras: JSON and glTF have no NaN.
 inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
 
-/// POSITION first. The mesh, the grid and the options must outlive it.
+/// POSITION is first. The mesh, the grid and the options must outlive the result.
 std::vector<GlbAttribute> list_glb_attributes(const Mesh& mesh, const GlbGrid& grid, const GlbOptions& options);
 
 }  // namespace scarp

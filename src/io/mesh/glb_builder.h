@@ -23,13 +23,14 @@ class GlbBuilder {
 
   std::size_t accessor_count() const { return accessors_.size(); }
   Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type);
-  /// Adds a view of `size` uncompressed bytes in the binary chunk. Returns its number. A target or a stride of 0 is not
-  /// written.
+  /// Adds a view of `size` uncompressed bytes in the binary chunk. Returns the view's number. A target or stride of 0
+  /// is not written.
   std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Write write);
   /// Adds a view of compressed items. Readers decompress them into the second buffer, which is not in the file.
   std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
                          const char* mode, const char* filter = nullptr);
-  /// Builds the file. Fails with kOutput from 4 GiB on. The sources of the pieces must still exist.
+  /// Builds the file. Fails with kOutput from 4 GiB on. REQUIRES: everything that the pieces' Write functions read
+  /// still exists.
   Result<std::vector<std::uint8_t>> assemble(int threads);
 
  private:
@@ -37,7 +38,7 @@ class GlbBuilder {
     std::uint64_t offset;
     Write write;
   };
-  /// Returns its offset in the binary chunk, a multiple of 4.
+  /// Returns the piece's offset in the binary chunk, a multiple of 4.
   std::uint64_t add_piece(std::uint64_t size, Write write);
 
   std::vector<Piece> pieces_;

@@ -1,4 +1,4 @@
-// Several GLB files as one. Arrays, accessors, images and materials of each are kept and renumbered.
+// Joins several GLB files. The arrays, accessors, images and materials of each are kept and renumbered.
 #include <fmt/format.h>
 
 #include <algorithm>

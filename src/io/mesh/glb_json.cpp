@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMostDepth = 100, kMostMembers = 10000;
 
 /// Scans the text once before parsing. Counts brackets and, for each open bracket, commas. Correct for all valid JSON;
-/// for other text the result does not matter, since the parser rejects it.
+/// for other text any result is fine, since the parser rejects it.
 bool has_modest_shape(std::string_view text) {
   std::array<std::size_t, kMostDepth + 1> commas{};
   std::array<bool, kMostDepth + 1> is_object{};

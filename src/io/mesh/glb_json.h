@@ -9,11 +9,11 @@
 
 namespace scarp {
 
-/// Keeps the order of keys, so that stored reports do not change.
+/// Preserves the order of keys, so that stored reports do not change.
 using Json = nlohmann::ordered_json;
 
-/// Parses possibly hostile text. Nothing if it is not JSON, is nested deeper than 100, or has an object with more than
-/// 10,000 members (whose cost would be quadratic). The result can be printed without deep recursion.
+/// Parses possibly hostile text. Nothing if it is not JSON, is nested deeper than 100 levels, or has an object of more
+/// than 10,000 members (the cost would be quadratic). Printing the result needs no deep recursion.
 std::optional<Json> parse_json(std::string_view text);
 
 /// Metadata as an object. A value that is a JSON object, array or number in compact form is embedded as such; all

@@ -1,4 +1,4 @@
-// Reading GLB: the part of glTF 2.0 that can represent a terrain, from any writer.
+// Reads GLB from any writer: the part of glTF 2.0 that can represent a terrain.
 //
 // The file may be hostile (glb_arrays.h): the node tree is checked for loops. Unsupported features (Draco, sparse
 // accessors, lines, external buffers) are rejected by name rather than misread.
@@ -234,7 +234,7 @@ class GlbReader : public GlbArrays {
   }
 
   bool append_positions(const GlbItems& items, const Transform& transform) {
-    // Instances may multiply the contents of a file; terrains use none, malicious files millions.
+    // Instances may multiply a file's contents. Terrains use no instances, malicious files millions.
     const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
     if (items.count > most || mesh.vertex_count() + items.count > most)
       return refuse("it repeats its meshes too often");

@@ -1,8 +1,8 @@
-// MSH 4.1 of Gmsh, as text: nodes and elements in blocks, each on an entity. The triangles of a material are a surface
-// and a node string is a curve. Both belong to a physical group, whose name solvers use. Nodes keep the order of the
-// mesh's vertices, and elements have the numbers of its triangles. A section $Comments holds metadata.
+// MSH 4.1 of Gmsh, as text: nodes and elements in blocks, each on an entity. A material's triangles are a surface, and
+// a node string is a curve. Each belongs to a physical group; solvers use its name. Nodes keep the order of the mesh's
+// vertices, and elements have the numbers of its triangles. A section $Comments holds metadata.
 //
-// The reader also accepts version 2, which other programs write: sections with one list each.
+// The reader also accepts version 2, which other programs write: each section has a single list.
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ struct GmshEntity {
   std::size_t element_count() const { return dimension == 2 ? parts.size() : parts.size() - 1; }
 };
 
-/// The text in quotes of a name. Gmsh truncates long ones.
+/// A name as quoted text. Gmsh truncates long names.
 std::string gmsh_name(std::string name) {
   constexpr std::size_t kMost = 120;
   for (char& c : name) {
@@ -177,7 +177,7 @@ class GmshWriter {
     put("$EndEntities\n");
   }
 
-  /// All on the first surface, to keep their order.
+  /// Writes all nodes on the first surface, to preserve their order.
   void write_nodes() {
     const std::size_t count = mesh_.vertex_count();
     put("$Nodes\n1 {0} 1 {0}\n2 1 0 {0}\n", count);

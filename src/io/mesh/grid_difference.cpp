@@ -1,4 +1,4 @@
-// Comparison of the grids of two rasters.
+// Compares the grids of two rasters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Corners closer than this, in cells, count as equal: below any effect of resampling.
+/// Corners closer than this, in cells, are equal: the distance is below any effect of resampling.
 constexpr double kNearCorner = 0.01;
 
 struct Corner {

@@ -1,4 +1,4 @@
-// Vertices numbered by the file.
+// The numbers of vertices in a file.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace scarp {
 
-/// Maps the numbers of vertices to their indices. Consecutive numbers, as programs usually write them, cost 8 bytes
-/// each and are found directly; others are sorted by finish().
+/// Maps the numbers of vertices to their indices. Consecutive numbers, the usual case, cost 8 bytes each and are found
+/// directly. Other numbers are sorted by finish().
 class IdTable {
  public:
   /// Adds the number of the next vertex, counting from `first`.
   void add(std::int64_t number) { numbers_.push_back(number); }
 
-  /// Call it between the last add() and the first find(). Returns a number used by two vertices, if any.
+  /// Must be called between the last add() and the first find(). Returns a number used by two vertices, if any.
   std::optional<std::int64_t> finish(std::uint32_t first) {
     first_ = first;
     is_row_ = true;

@@ -1,5 +1,5 @@
-// LandXML 1.2, the exchange format of civil engineering: one TIN surface. Points are northing, easting, elevation, and
-// are numbered; faces refer to three of them. A Feature, LandXML's extension element, holds the mesh's metadata.
+// LandXML 1.2, the exchange format of civil engineering: one TIN surface. Numbered points have northing, easting and
+// elevation; faces refer to three points. A Feature, LandXML's extension element, holds the mesh's metadata.
 //
 // A LandXML file has one unit for all lengths, including heights, and no degrees: incompatible meshes are rejected
 // rather than converted. The date required by the schema is constant, so that equal meshes give equal files.
@@ -70,8 +70,7 @@ Result<Reference> find_reference(const Mesh& mesh) {
     }
   }
   const std::string unit = value_of(mesh, "unit");
-  const double metres = find_metres(unit).value_or(reference.unit->metres);  // the default is for words without a known
-                                                                             // length
+  const double metres = find_metres(unit).value_or(reference.unit->metres);  // the default applies to unknown units
   if (const double factor = metres / reference.unit->metres; std::fabs(factor - 1) > 1e-9) {
     const LengthUnit* const named = find_unit(metres);
     return refuse_to_write(fmt::format(

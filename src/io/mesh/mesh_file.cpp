@@ -59,7 +59,7 @@ char find_up(const MeshFormatTraits& traits, std::span<const std::uint8_t> bytes
   return is_own || (traits.format == MeshFormat::kStl && begins_with(bytes, "scarp ")) ? 'z' : '\0';
 }
 
-/// "GLB, OBJ or PLY" for the formats that can be read, or ".glb, .obj or .ply" for all.
+/// "GLB, OBJ or PLY" for readable formats, or ".glb, .obj or .ply" for all formats.
 std::string list_formats(bool by_ending) {
   std::vector<std::string> words;
   for (const MeshFormatTraits* traits : mesh_formats()) {

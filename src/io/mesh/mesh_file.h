@@ -24,26 +24,25 @@ std::string metadata_line(const std::string& key, const std::string& value);
 /// The reverse of metadata_line(). Returns false if there is no separator.
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
 
-/// The same in printable ASCII, for formats that declare an encoding, whatever bytes a file name has.
+/// The same in printable ASCII for any bytes, for formats that declare an encoding.
 std::string ascii_metadata_line(const std::string& key, const std::string& value);
-/// Key or value alone: all bytes except printable ASCII, '%' and '\\' become %XX; and the inverse.
+/// A single key or value in printable ASCII: '%', '\\' and all bytes outside it become %XX; and the inverse.
 std::string ascii_text(const std::string& text);
 std::string undo_ascii_text(std::string_view text);
 
 /// "x y z", each the shortest text that parses to the same double.
 std::string origin_text(const std::array<double, 3>& origin);
-/// Three finite numbers, or nothing.
+/// Three finite numbers; nothing for other text.
 std::optional<std::array<double, 3>> parse_origin(std::string_view text);
 
 /// "x east, y north, z up", or the equivalent for a mesh with y up.
 const char* axes_text(const Mesh& mesh);
 
-/// Expresses absolute positions relative to `origin`, if this keeps vertex(v) exact for every v; otherwise changes
-/// nothing.
+/// Makes absolute positions relative to `origin` if vertex(v) stays exact for every v. Otherwise changes nothing.
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
 
 /// Appends the polygon as a fan from its first corner. Returns an error message, or an empty string. Thousands of
-/// triangles around one corner are rejected, since the judge needs the square of that time.
+/// triangles around one corner are rejected, since the judge's time grows with the square of their number.
 std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
 
 /// Drops normals, uvs, colours and channels that not every vertex has. Readers collect these attributes as they occur.

@@ -17,7 +17,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                               1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// Plain decimals of up to 2^53 with at most 22 decimal places: one division of two exact numbers is correctly rounded.
+/// Parses plain decimals up to 2^53 with at most 22 decimal places, where one division of two exact numbers is
+/// correctly rounded.
 bool parse_plain(std::string_view word, double& value) {
   const bool negative = word[0] == '-';
   std::size_t i = negative || word[0] == '+' ? 1 : 0;

@@ -10,9 +10,9 @@
 namespace scarp {
 
 /// Parses the whole word as a number, correctly rounded and independent of the locale, including "nan" and "inf".
-/// Returns false if it is no number.
+/// Returns false for other words.
 bool parse_number(std::string_view word, double& value);
-/// Parses the whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
+/// Parses the whole word as a decimal integer. Returns false for other words and beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// True if the bytes begin with those of the text.
@@ -33,7 +33,7 @@ class TextCursor {
   const char* position() const { return at_; }
   std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
 
-  /// The next word of this line; empty at its end. A backslash at the end of a line continues it.
+  /// The next word of this line; empty at the line's end. A backslash at the end continues the line.
   std::string_view word();
   /// The next word of this or a later line; empty at the end of the text.
   std::string_view word_anywhere();

@@ -44,7 +44,7 @@ class Places {
   std::vector<Slot> slots_;
 };
 
-/// Triangles that become a part, or are halved.
+/// A set of triangles that becomes a part or is halved.
 struct Share {
   std::size_t first = 0, count = 0;
   std::optional<MeshPart> part = {};
@@ -145,7 +145,7 @@ class Splitter {
     return whole;
   }
 
-  /// Moves those on one side of the median to the front, in order. Returns their number.
+  /// Moves the triangles on one side of the median to the front, in order. Returns their number.
   std::size_t halve(const Share& share, int threads) {
     const std::span<std::uint32_t> triangles = triangles_of(share);
     const std::array<Extent, 2> extents = extents_of(triangles, threads);

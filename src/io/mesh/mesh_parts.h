@@ -1,4 +1,4 @@
-// A mesh in parts that 16-bit indices can number.
+// A mesh in parts small enough for 16-bit indices.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct MeshPart {
   std::vector<std::uint16_t> corners;   ///< indices into `vertices`
 };
 
-/// Every triangle is in one part, in the order of the mesh; a vertex between parts is in each of them. A mesh of few
+/// Every triangle is in one part, in the order of the mesh. A vertex shared by parts is in each of them. A mesh of few
 /// vertices is one unchanged part. No part has more than 65,535 vertices, since index 65,535 would restart a primitive.
-/// Parts are recursive halves along x or y. Cost: O(triangles · log parts).
+/// Parts are made by recursive halving along x or y. Cost: O(triangles · log parts).
 std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads);
 
 }  // namespace scarp

@@ -28,7 +28,7 @@ const char* find_impossible(const MeshoptStream& stream) {
                                               : stream.filter == MeshoptFilter::kQuaternion ? stride == 8
                                                                                             : true));
   if (!filter_fits) return "has a filter that its mode or stride does not allow";
-  // Sixteen bytes of attributes need at least two bits, an index or a triangle a byte.
+  // Sixteen bytes of attributes need at least two bits; an index or a triangle needs at least a byte.
   constexpr std::uint64_t kPerByte = 64, kSlack = 1 << 16;
   const std::uint64_t most = kPerByte * stream.bytes.size() + kSlack;
   if (stream.bytes.empty() || stream.count > most || stream.count * stride > most)

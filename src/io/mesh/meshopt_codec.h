@@ -17,7 +17,7 @@ inline constexpr bool kHasMeshoptCodec = false;
 enum class MeshoptMode { kAttributes, kTriangles, kIndices };
 enum class MeshoptFilter { kNone, kOctahedral, kQuaternion, kExponential };
 
-/// The declared contents of a stream: `count` items of `stride` bytes.
+/// A stream, and its declared contents: `count` items of `stride` bytes.
 struct MeshoptStream {
   std::span<const std::uint8_t> bytes;
   MeshoptMode mode = MeshoptMode::kAttributes;
@@ -25,18 +25,18 @@ struct MeshoptStream {
   std::uint64_t count = 0, stride = 0;
 };
 
-/// Sorts triangles, and vertices by first use, for the smallest encoding; unused vertices come last. Same triangles,
-/// same winding.
+/// Reorders triangles, and vertices by first use, for the smallest encoding; unused vertices are last. The triangles
+/// and their winding do not change.
 void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint16_t>& corners);
 
-/// Encodes items of `stride` bytes, a multiple of 4 up to 256, in version 0 of the codec, which every decoder reads.
+/// Encodes items of `stride` bytes (a multiple of 4 up to 256) in version 0 of the codec, which every decoder reads.
 /// Empty in a build without the codec.
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride);
-/// Encodes corners of triangles, which may be rotated: the same winding with another first corner.
+/// Encodes triangles by their corners. They may be rotated: the same winding with another first corner.
 std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t> corners, std::size_t vertices);
 
-/// An error message, or null. `items` then holds count · stride bytes. Handles hostile streams, and allocates no more
-/// than these bytes can encode.
+/// Returns an error message, or null: `items` then holds count · stride bytes. Handles hostile streams. Allocates no
+/// more than their bytes can encode.
 const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items);
 
 }  // namespace scarp

@@ -1,7 +1,7 @@
-// OBJ: text. Positions are absolute, each number the shortest text that parses to the same double.
+// OBJ: text. Positions are absolute. Each number is the shortest text that parses to the same double.
 //
-// Truncated text may still be valid. So the file announces its counts at the top and ends with a mark, and the reader
-// requires both if it finds the announcement.
+// Truncated text may still be valid. So the file announces its counts at the top and ends with a mark. If counts are
+// announced, the reader requires them and the mark.
 
 #include <fmt/format.h>
 

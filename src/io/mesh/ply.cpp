@@ -1,9 +1,8 @@
-// PLY: a text header that describes the rest. Written are binary little-endian numbers at absolute positions: floats,
-// which more programs read, if exact, otherwise doubles. Readable are text and both byte orders, any numeric types,
-// properties in any order, unknown elements, and polygons.
+// PLY: a text header that describes the rest. The writer writes binary little-endian absolute positions: as floats,
+// which more programs read, if these are exact, otherwise as doubles. The reader accepts text and both byte orders, any
+// numeric types, properties in any order, unknown elements, and polygons.
 //
-// The reader parses each element's items property by property. Values of interest have a slot in a small table; others
-// are skipped.
+// The reader parses items property by property. Needed values have a slot in a small table; others are skipped.
 
 #include <fmt/format.h>
 

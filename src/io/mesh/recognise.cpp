@@ -33,7 +33,7 @@ std::optional<MeshFormat> find_mark(std::span<const std::uint8_t> bytes) {
   return {};
 }
 
-/// By the first word of a line.
+/// Recognises a text format by the first word of a line.
 std::optional<MeshFormat> recognise_lines(std::span<const std::uint8_t> bytes) {
   TextCursor cursor(bytes);
   for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {

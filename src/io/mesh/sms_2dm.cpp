@@ -1,9 +1,9 @@
-// 2DM, the mesh of SMS and of hydraulic models: text, a card a line. "E3T" is a triangle of numbered nodes and its
-// material, "ND" a node, "NS" a string of nodes. Triangles come first, as SMS writes them, so the reader resolves their
-// corners at the end.
+// 2DM, the mesh format of SMS and of hydraulic models: text, one card per line. "E3T" is a triangle of numbered nodes
+// and its material, "ND" a node, "NS" a string of nodes. Triangles come first, as in files of SMS, so the reader
+// resolves their corners at the end.
 //
-// The format has neither metadata nor an end mark. Both are stored in lines that begin with '#', which its readers
-// skip. If the file announces its counts, the reader requires them and the mark.
+// The format has neither metadata nor an end mark. Lines that begin with '#', which its readers skip, store both. If
+// the file announces its counts, the reader requires them and the mark.
 
 #include <fmt/format.h>
 

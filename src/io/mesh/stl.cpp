@@ -1,9 +1,9 @@
-// STL: triangles without shared vertices. Written as binary; read as binary and text.
+// STL: triangles without shared vertices. Writes binary files; reads binary and text.
 //
 // The format has three float32 per corner and no origin. So offsets are written, and the origin is stored in the
-// 80-byte header, which begins with "scarp" (a header that begins with "solid" would be read as text). A solid's
-// placement is stored instead if it has one, as text or, if that is too long, as its six doubles. On reading, corners
-// at exactly one position become one vertex, which restores the topology.
+// 80-byte header, which begins with "scarp" (readers would read a header that begins with "solid" as text). If the mesh
+// has a solid's placement, that is stored instead, as text or, if too long, as six doubles. On reading, corners at
+// exactly equal positions become one vertex, which restores the topology.
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ std::optional<std::string> parse_placement(std::string_view header) {
   return text;
 }
 
-/// Decimal if it fits the header, as it nearly always does; else the bits of the three doubles.
+/// Decimal text if it fits the header, as nearly always; else the bits of the three doubles.
 std::string place_text(const Mesh& mesh) {
   const std::array<double, 3>& origin = mesh.origin;
   if (const auto placed = mesh.metadata.find(kPlacementKey); placed != mesh.metadata.end()) {

@@ -1,5 +1,5 @@
-// Comments with the metadata of text meshes that have no other place for them: counts, origin, metadata, and an end
-// mark, since truncated text may still be valid.
+// Comments of text formats that have no other place for counts, origin and metadata. They end with a mark, since
+// truncated text may still be valid.
 #pragma once
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ struct TextComments {
     }
   }
 
-  /// Writes all but the end mark, at the top of a file.
+  /// Writes everything except the end mark, at the top of a file.
   static void write(const Mesh& mesh, std::vector<std::uint8_t>& bytes) {
     auto out = std::back_inserter(bytes);
     fmt::format_to(out, "# {}{} {}\n", kCounts, mesh.vertex_count(), mesh.triangle_count());

@@ -1,9 +1,9 @@
 // 3MF, the format of slicers: an archive with one XML document of solids and two small ones that refer to it (Open
-// Packaging Conventions). It is written without the library of the 3MF consortium, whose output is not reproducible: it
-// numbers objects at random and rounds coordinates to six decimals. The tests read Scarp's files with it.
+// Packaging Conventions). The 3MF consortium's library is used only in tests, to read Scarp's files. Its output is not
+// reproducible: it numbers objects at random and rounds coordinates to six decimals.
 //
-// Coordinates are float32 in shortest decimal, and read as float32, as slicers do. The mesh's metadata are one metadata
-// element in Scarp's namespace, line by line, because its keys may be invalid XML names.
+// Coordinates are written as the shortest decimals of float32, and read as float32, as by slicers. The mesh's metadata
+// are lines of one metadata element in Scarp's namespace, because their keys may be invalid XML names.
 
 #include <fmt/format.h>
 
@@ -99,7 +99,7 @@ tl::unexpected<Error> refuse_to_read(std::string why) { return fail(ErrorKind::k
 using Transform = std::array<double, 12>;
 constexpr Transform kIdentity{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
-/// The objects of a model in order, and those that it builds, transformed to their places.
+/// Reads the objects of a model in order, and its build items, transformed to their places.
 class ModelReader {
  public:
   explicit ModelReader(std::span<const std::uint8_t> bytes) : xml_(bytes) {}

@@ -1,5 +1,5 @@
 // TIN, the format of Scape and Terra: a line "t" and nine numbers for each triangle, nothing else. It has no origin,
-// metadata or end mark, so a file truncated between two lines reads as a smaller mesh.
+// metadata or end mark, so a file truncated between two lines is a valid, smaller mesh.
 
 #include <fmt/format.h>
 

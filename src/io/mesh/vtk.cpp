@@ -1,4 +1,4 @@
-// VTK's XML formats, written: an unstructured grid (.vtu) or polydata (.vtp) of triangles, with double positions.
+// Writes VTK's XML formats: an unstructured grid (.vtu) or polydata (.vtp) of triangles, with double positions.
 //
 // The arrays follow the XML as raw little-endian bytes, each after its length. The XML holds their offsets from the
 // mark '_'. Metadata are written as comments: programs differ in which text arrays they accept among the data.
@@ -32,7 +32,7 @@ class VtkPlaces {
   std::uint64_t next_ = 0;
 };
 
-/// Two hyphens would end a comment in XML.
+/// Escapes double hyphens, which would end a comment in XML.
 std::string comment(std::string text) {
   for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) {
     text.replace(at, 2, "-%2D");

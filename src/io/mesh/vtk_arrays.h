@@ -1,4 +1,4 @@
-// The arrays of VTK's XML files: as text, as base64 or as raw bytes behind the XML; uncompressed.
+// The uncompressed arrays of VTK's XML files: text, base64, or raw bytes behind the XML.
 #pragma once
 
 #include <bit>
@@ -16,10 +16,10 @@ namespace scarp {
 
 enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
 
-/// "Float64", "UInt8" …; nothing if VTK has no such type of numbers.
+/// "Float64", "UInt8" …; nothing if VTK has no such numeric type.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
-/// The attributes of the root element for all arrays, and the bytes behind the XML.
+/// The root element's attributes that all arrays share, and the bytes behind the XML.
 struct VtkFile {
   std::endian order = std::endian::little;
   bool wide_lengths = false;               ///< lengths of arrays have 64 bits, not 32
@@ -33,7 +33,7 @@ struct VtkArray {
   VtkType type = VtkType::kFloat64;
   Format format = Format::kText;
   std::uint64_t offset = 0;  ///< from the mark; only for kAppended
-  std::string content;       ///< content of other arrays
+  std::string content;       ///< for the other formats
 };
 
 /// The numbers of an array in any encoding.
@@ -47,7 +47,7 @@ class VtkNumbers {
   bool is_float() const { return type_ == VtkType::kFloat32 || type_ == VtkType::kFloat64; }
   std::size_t bytes() const { return bytes_.size(); }
   double real(std::size_t i) const;
-  /// The integer, or −1 for integers beyond 63 bits and other numbers.
+  /// The integer; −1 for other numbers, and for integers beyond 63 bits.
   std::int64_t whole(std::size_t i) const;
 
  private:
@@ -59,7 +59,8 @@ class VtkNumbers {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// Fails with kInput and half a sentence ("is cut off", …) if the array is damaged. REQUIRES: the file outlives it.
+/// Fails with kInput and half a sentence ("is cut off", …) if the array is damaged. REQUIRES: the file outlives the
+/// result.
 Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array);
 
 }  // namespace scarp

@@ -1,8 +1,8 @@
-// VTK's XML formats, read: the triangles and polygons of unstructured grids and polydata, for any array types,
-// encodings and byte order; uncompressed.
+// Reads VTK's XML formats: the triangles and polygons of uncompressed unstructured grids and polydata, with any array
+// types, encodings and byte order.
 //
-// First the XML is read and each piece's arrays are recorded, then the arrays are read: raw bytes follow the XML, and
-// are not XML.
+// The XML is read first, and the arrays of each piece are recorded. Then the arrays are read, since their raw bytes
+// follow the XML.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,8 @@
 namespace scarp {
 namespace {
 
-/// A Piece element. Arrays are known by "Section/Name": "Polys/offsets"; the points' only array by "Points".
+/// A Piece element. Keys of arrays are "Section/Name", such as "Polys/offsets"; the key of the points' only array is
+/// "Points".
 struct VtkPiece {
   std::int64_t points = 0, cells = 0;
   std::map<std::string, VtkArray> arrays;
@@ -134,7 +135,7 @@ class VtkReader {
     array.type = *found;
     if (format == "appended") {
       const std::string text = xml_.attribute("offset");
-      std::int64_t offset = 0;  // VTK reserves room for it and pads it with blanks
+      std::int64_t offset = 0;  // VTK pads it with blanks
       if (!parse_integer(std::string_view(text).substr(0, text.find(' ')), offset) || offset < 0) {
         return "an array does not say where it is";
       }
@@ -151,7 +152,7 @@ class VtkReader {
     return {};
   }
 
-  /// Skips from the mark to the end tag. The tag follows arbitrary bytes, so it is searched from the end.
+  /// Skips from the mark to the end tag. The tag follows arbitrary bytes, so the search begins at the end of the file.
   std::string skip_appended() {
     file_.is_base64 = xml_.attribute("encoding") == "base64";
     const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
@@ -165,7 +166,8 @@ class VtkReader {
     return {};
   }
 
-  /// The numbers of a required array. Arrays that share bytes are rejected: a small file could request much memory.
+  /// The numbers of a required array. Arrays that share bytes are rejected, since a small file could then request much
+  /// memory.
   Result<VtkNumbers> load(const VtkPiece& piece, const std::string& key) {
     const auto found = piece.arrays.find(key);
     if (found == piece.arrays.end()) return fail(ErrorKind::kInput, fmt::format("it has no array {}", in_quotes(key)));
@@ -240,7 +242,7 @@ class VtkReader {
                                                                          : std::numeric_limits<float>::quiet_NaN();
   }
 
-  /// Numbers of points, `components` for each. Empty if the piece has none, or not for all points.
+  /// An array with `components` numbers per point. Empty if the piece has no such array, or not for all points.
   Result<VtkNumbers> load_point_data(const VtkPiece& piece, const std::string& name, std::size_t components) {
     const std::string key = "PointData/" + name;
     if (piece.arrays.find(key) == piece.arrays.end()) return VtkNumbers();

@@ -1,4 +1,4 @@
-// Merges corners at equal positions to shared vertices.
+// Merges corners at equal positions into shared vertices.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Gives equal points equal ids, in order of first appearance. Open addressing, at most half full.
+/// Gives equal points equal ids, in order of first appearance. A hash table with open addressing, at most half full.
 class Welder {
  public:
   Welder(std::vector<double>& positions, std::size_t most_points) : positions_(positions) {

@@ -12,12 +12,12 @@
 namespace scarp {
 
 /// Reads XML in UTF-8 or ASCII and checks that elements are closed in order, down to the root. Document types are
-/// rejected, and with them all entities except XML's own five and numbers. Names are returned without their prefix.
+/// rejected, so the only entities are XML's own five and numeric ones. Names are returned without their prefix.
 class XmlReader {
  public:
   enum class Event {
     kStart,    ///< start of an element: name(), attribute()
-    kEnd,      ///< end of an element: name(); also of <one/>
+    kEnd,      ///< end of an element: name(); also for <one/>
     kText,     ///< text(), with unresolved entities
     kComment,  ///< text()
     kDone,     ///< the root has ended
@@ -34,7 +34,7 @@ class XmlReader {
   std::string_view text() const { return content_; }
   const std::string& complaint() const { return complaint_; }
 
-  /// The position of the next event, in bytes from the start. For content that is not XML; jump() skips it.
+  /// The position of the next event, in bytes from the start. With jump() it serves to skip content that is not XML.
   std::size_t position() const { return at_; }
   void jump(std::size_t position) { at_ = position; }
   /// The 1-based line of position(). Cost: O(position()).
@@ -56,8 +56,8 @@ class XmlReader {
   bool ends_at_once_ = false, has_root_ = false;
 };
 
-/// Reads to the end of the root. `start`, `text` and `end` are called for their events; `end` returns a complaint, with
-/// which reading ends, or an empty string. Returns it, or that of the reader.
+/// Reads to the end of the root. `start`, `text` and `end` are called for their events. A non-empty string from `end`
+/// is a complaint and ends reading. Returns that complaint, or the reader's, or an empty string.
 template <class Start, class Text, class End>
 std::string read_events(XmlReader& xml, Start&& start, Text&& text, End&& end) {
   for (;;) {

@@ -13,14 +13,14 @@ namespace {
 /// A northing of middle latitudes, in metres from the equator.
 bool is_mid_northing(const ColumnFacts& facts) { return facts.lies_in(4.0e6, 7.9e6); }
 
-/// The number of a zone that stands before an easting of half a million: Gauss-Krueger, Poland 2000. 0: there is none.
-/// From 2 on, since those of zone 1 are like northings in feet.
+/// The zone number in front of an easting of about half a million: Gauss-Krueger, Poland 2000. 0: none. Zone 1 is
+/// excluded, since its eastings resemble northings in feet.
 int zone_of(const ColumnFacts& facts) {
   const double zone = std::floor(facts.low / 1e6), base = zone * 1e6;
   return zone >= 2 && zone <= 60 && facts.lies_in(base + 2e5, base + 8e5) ? static_cast<int>(zone) : 0;
 }
 
-/// Metres from a meridian, as in Austria.
+/// True for metres from a meridian, as in Austria.
 bool is_about_meridian(const ColumnFacts& facts) { return facts.lies_in(-4e5, 4e5) && facts.extent() < 4e5; }
 
 bool may_be_pair(const ColumnFacts& north, const ColumnFacts& east) {
@@ -31,8 +31,8 @@ bool may_be_pair(const ColumnFacts& north, const ColumnFacts& east) {
   return zone == 2 ? north.high < 6.15e6 : zone > 2 || (north.high < 6.6e6 && is_about_meridian(east));
 }
 
-/// Pairs of Germany and Poland, where zones and northings meet: those of zones up to 5 are smaller than any northing
-/// there.
+/// True for pairs in Germany and Poland. Eastings with a zone number resemble northings, but up to zone 5 they are
+/// smaller than any northing there.
 bool is_sure_pair(const ColumnFacts& north, const ColumnFacts& east) {
   const int zone = zone_of(east);
   return north.lies_in(5.2e6, 6.15e6) && zone > 0 && zone <= 8 && (zone >= 6 || east.high < north.low);
@@ -79,7 +79,8 @@ PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other) {
 
 namespace {
 
-/// Numbers of points are whole and unlike, while x and y have decimals; or they go up evenly, as neither x nor y does.
+/// True if the first column numbers the points: whole, while x and y have decimals; or in even steps, unlike x and y;
+/// or whole and unique before map coordinates.
 bool first_counts(const Rows& rows, const std::vector<std::size_t>& list) {
   const ColumnFacts &number = rows.columns[0], &a = rows.columns[list[1]], &b = rows.columns[list[2]];
   if (number.are_whole && !a.are_whole && !b.are_whole) return true;
@@ -134,7 +135,7 @@ std::optional<std::size_t> find_later_pair(const Rows& rows, const std::vector<s
   for (std::size_t k = 1; k + 2 < list.size(); ++k) {
     if (is_pair(k)) return k;
   }
-  // Colours before local coordinates.
+  // Colours may precede local coordinates.
   if (list.size() < 6) return std::nullopt;
   for (std::size_t k = 0; k < 6; ++k) {
     const ColumnFacts& facts = rows.columns[list[k]];

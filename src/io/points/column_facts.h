@@ -17,7 +17,7 @@ struct ColumnFacts {
   std::uint64_t filled = 0, numbers = 0;
   double low = std::numeric_limits<double>::infinity(), high = -low, first = 0, last = 0, step = 0;
   bool are_whole = true, has_even_steps = true;
-  bool leads_with_zero = false;         ///< some number of several digits does
+  bool leads_with_zero = false;         ///< at least one of several digits does
   std::size_t narrow = 1000, wide = 0;  ///< characters
 
   void add(std::string_view field, bool has_decimal_comma);
@@ -33,32 +33,32 @@ struct Rows {
   bool holds_numbers(std::size_t column) const {
     return columns[column].numbers > 0 && columns[column].numbers * 2 >= count;
   }
-  /// The columns of numbers from the left, without the first one where it counts.
+  /// The columns of numbers from the left, without the first one if it numbers the points.
   std::vector<std::size_t> coordinates() const;
 };
 
-/// The orders of a pair of columns that suit map coordinates, by their size.
+/// The possible orders of a pair of columns as map coordinates, by size.
 struct PairFit {
   bool is_east_first = false, is_north_first = false;
 };
 PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other);
-/// UTM and most national grids: a northing beyond a million, and an easting below.
+/// UTM and most national grids have northings beyond a million, and eastings below.
 bool is_northing(const ColumnFacts& facts);
 bool is_easting(const ColumnFacts& facts);
 
 /// A doubt about a column of heights.
 struct HeightDoubt {
   std::string why;          ///< "counts", "is 0 everywhere"
-  std::size_t instead = 0;  ///< a later column that may hold them
+  std::size_t instead = 0;  ///< a later column that may hold heights
   bool is_certain = true;   ///< false: a warning is enough
 };
 /// `list`: the columns of numbers, the first three of which would be x, y and the height.
 std::optional<HeightDoubt> doubt_height(const Rows& rows, const std::vector<std::size_t>& list);
 
-/// The place in `list` of two columns that are x and y rather than the first two are.
+/// The position in `list` of two columns more likely to be x and y than the first two.
 std::optional<std::size_t> find_later_pair(const Rows& rows, const std::vector<std::size_t>& list);
 
-/// True where each number has become two columns, at its decimal comma.
+/// True if each number was split into two columns at its decimal comma.
 bool are_split_at_commas(const Rows& rows);
 
 }  // namespace scarp

@@ -33,7 +33,7 @@ constexpr std::string_view kCodeWords[] = {"code", "description", "desc", "d", "
 
 constexpr std::array<Words, 5> kWords{kXWords, kYWords, kHeightWords, kNumberWords, kCodeWords};
 
-/// True for words that name a unit or frame, and not a quantity.
+/// True for words that name no quantity, such as units and frames.
 bool says_nothing(std::string_view word) {
   constexpr std::string_view kIdle[] = {
       "utm", "wgs84", "etrs89",      "coord",         "coordinate", "coordinates", "point",  "ortho",
@@ -42,7 +42,7 @@ bool says_nothing(std::string_view word) {
   return std::find(std::begin(kIdle), std::end(kIdle), word) != std::end(kIdle) || find_metres(std::string(word));
 }
 
-/// Small ASCII letters; umlauts as two letters, from UTF-8 and Latin-1.
+/// Lower-case ASCII, with umlauts as two letters, from UTF-8 and Latin-1.
 std::string spelled_out(std::string_view name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -88,14 +88,14 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-/// A name before its brackets and in them.
+/// The parts of a name before its brackets and in them.
 std::array<std::string, 2> split_at_bracket(std::string_view name) {
   const std::string text = spelled_out(name);
   const std::size_t bracket = std::min(text.find_first_of("([{"), text.size());
   return {text.substr(0, bracket), text.substr(bracket)};
 }
 
-/// The longest run of words that is a unit of length, the last of several: "in feet". Empty if there is none.
+/// The longest run of words that is a unit of length ("in feet"); of several, the last one. Empty if there is none.
 std::string longest_unit(const std::vector<std::string>& words, std::size_t first) {
   for (std::size_t size = words.size(); size > 0; --size) {
     for (std::size_t k = words.size() - size + 1; k-- > first;) {
@@ -107,7 +107,7 @@ std::string longest_unit(const std::vector<std::string>& words, std::size_t firs
   return {};
 }
 
-/// "elevft" is "elev" and "ft". The unit's place in the word; its size where there is none.
+/// The position of the unit in a word such as "elevft"; the word's size without a unit.
 std::size_t find_joined_unit(const std::string& word) {
   for (std::size_t k = 3; k + 2 <= word.size(); ++k) {
     const bool is_height =

@@ -1,4 +1,4 @@
-// Shared by the readers for LandXML.
+// Common parts of the LandXML readers.
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,24 @@ struct LandXmlHead {
   /// The unit of x and y.
   HeightUnit unit() const;
   HeightUnit height_unit() const;
-  /// False for a CRS that is unknown here.
+  /// False if this build does not know the CRS.
   bool has_crs() const;
   /// Fails if the CRS has another unit.
   Result<void> check(const std::string& path) const;
 };
 
-/// A warning that the CRS is unknown here.
+/// A warning that this build does not know the CRS.
 std::string warn_of_unknown_crs(const LandXmlHead& head, const std::string& path);
 
-/// The complaint, with the line of the file; an empty one stays empty.
+/// The complaint with the line of the file; empty for an empty one.
 std::string at_line(const XmlReader& xml, const std::string& why);
 
-/// Replaces `numbers` by those of the text. Returns a complaint, or an empty string.
+/// Replaces `numbers` by the numbers in the text. Returns a complaint, or an empty string.
 std::string read_numbers(const std::string& text, std::vector<double>& numbers);
 
 enum class BoundaryKind { kOuter, kVoid, kIsland };
 
-/// The kind by its name in a file: outer; void, as other programs call it, too; island. Nothing for another.
+/// The kind by its name in a file: outer, void (also by other programs' names for it), island. Nothing for other names.
 std::optional<BoundaryKind> find_boundary_kind(const std::string& name);
 
 struct LandXmlBoundary {
@@ -55,11 +55,11 @@ struct LandXmlBoundaries {
   bool has_breaklines = false;
 };
 
-/// The boundaries of all surfaces, in the order of the file. kInput with the line for a file that cannot be read, and
-/// for a boundary of another kind or without points.
+/// The boundaries of all surfaces, in the order of the file. Fails with kInput and the line if the file cannot be read,
+/// or a boundary has another kind or no points.
 Result<LandXmlBoundaries> read_landxml_boundaries(std::span<const std::uint8_t> bytes, const std::string& path);
 
-/// True for a file, by its first bytes.
+/// True for a LandXML file, by its first bytes.
 bool is_landxml(const std::string& path);
 
 }  // namespace scarp

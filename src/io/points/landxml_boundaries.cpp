@@ -19,18 +19,18 @@ namespace {
 using BoundaryPlace = std::array<double, 2>;           // easting, northing
 using PointKey = std::pair<std::string, std::string>;  // surface, empty for survey points; name of the point
 
-/// A boundary, as in the file.
+/// A boundary as given in the file.
 struct GivenBoundary {
   std::string surface;
   BoundaryKind kind = BoundaryKind::kOuter;
   std::vector<BoundaryPlace> places;
-  std::vector<std::string> references;  ///< names of points, instead of places
+  std::vector<std::string> references;  ///< names of points, if given instead of coordinates
   std::size_t position = 0;             ///< in bytes from the start of the file
 };
 
 class BoundaryReader {
  public:
-  /// `wanted`: the points to find instead of boundaries; null: none.
+  /// `wanted`: points to find instead of boundaries; null: read boundaries.
   BoundaryReader(std::span<const std::uint8_t> bytes, const std::set<std::string>* wanted)
       : xml_(bytes), wanted_(wanted) {}
 
@@ -116,12 +116,12 @@ class BoundaryReader {
   XmlReader xml_;
   const std::set<std::string>* wanted_;
   std::string surface_, type_, name_;
-  std::string text_, reading_;  // content and name of the element that is being read
+  std::string text_, reading_;  // content and name of the current element
   std::vector<double> numbers_;
   bool in_surface_ = false, in_boundary_ = false;
 };
 
-/// Without repetitions, and closed; empty if it has no extent.
+/// The closed ring without repetitions; empty if it has no extent.
 Line ring_of(const std::vector<BoundaryPlace>& places) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   Line ring;
@@ -137,7 +137,7 @@ Line ring_of(const std::vector<BoundaryPlace>& places) {
   return ring;
 }
 
-/// Replaces references by the places of their points. Returns a complaint.
+/// Replaces references by the positions of their points. Returns a complaint, or an empty string.
 std::string resolve(std::span<const std::uint8_t> bytes, std::vector<GivenBoundary>& boundaries) {
   std::set<std::string> wanted;
   for (const GivenBoundary& boundary : boundaries)

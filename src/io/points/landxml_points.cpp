@@ -1,4 +1,5 @@
-// Points and breaklines of LandXML: survey points, and what a surface was made of; else the vertices of its TIN.
+// Reads points and breaklines of LandXML: survey points, and the source data of surfaces, or else the vertices of their
+// TINs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ class Reader {
 
   Content take() { return std::move(content_); }
 
-  /// Returns why it cannot be read; empty if it can.
+  /// Returns a complaint, or an empty string.
   std::string read() {
     const auto add_text = [this] {
       if (!reading_.empty()) text_ += xml_.text();
@@ -127,7 +128,8 @@ class Reader {
     return true;
   }
 
-  /// One point. `wanted`: the count of its numbers; 0: a survey point, which may refer to another or lack a height.
+  /// Reads one point. `wanted`: its number of coordinates; 0: a survey point, which may refer to another or lack a
+  /// height.
   std::string read_points(PointSet& points, std::size_t wanted) {
     if (std::string why = read_numbers(text_, numbers_); !why.empty()) return why;
     if (wanted == 0 && numbers_.empty()) return {};
@@ -140,7 +142,7 @@ class Reader {
     return {};
   }
 
-  /// A list of points; in a breakline or a contour their line.
+  /// Reads a list of points; in a breakline or a contour, also their line.
   std::string read_list(bool has_heights) {
     if (std::string why = read_numbers(text_, numbers_); !why.empty()) return why;
     const std::size_t size = has_heights ? 3 : 2;
@@ -166,7 +168,7 @@ class Reader {
   XmlReader xml_;
   std::optional<double> nodata_;
   Content content_;
-  std::string text_, reading_;    // content and name of the element of points that is being read
+  std::string text_, reading_;    // content and name of the current element of points
   std::string line_, elevation_;  // the open breakline, contour or boundary
   std::vector<double> numbers_;
   bool in_surface_ = false, in_source_ = false;
@@ -203,7 +205,7 @@ Result<std::vector<Part*>> choose_parts(Content& content, const std::string& pat
   return chosen;
 }
 
-/// Warns of everything that is not among the points.
+/// Warns of everything that is omitted from the points.
 void warn(const Part& part, PointSet& points) {
   const auto add = [&](const std::string& text) { points.warnings.push_back(points.path + ": " + text); };
   if (part.flat > 0) add(fmt::format("points and lines that have no elevation and were left out: {}", part.flat));
@@ -216,7 +218,7 @@ void warn(const Part& part, PointSet& points) {
     add(fmt::format("of the surface '{}' the vertices are read, not its triangles", part.name));
 }
 
-/// Places x and y, and settles the unit of the heights.
+/// Sets the frame of x and y, and the unit of the heights.
 Result<void> place(const Content& content, const ReadPointsOptions& options, PointSet& points) {
   const LandXmlHead& head = content.head;
   const HeightUnit unit = head.unit(), of_heights = head.height_unit();

@@ -1,4 +1,4 @@
-// LAS and LAZ files as points: the room las reads them, and here they get their place and their unit.
+// LAS and LAZ files as points: src/las reads them; their frame and unit are set here.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -29,7 +29,7 @@
 namespace scarp {
 namespace {
 
-/// An open file, read at any place by any thread.
+/// An open file that any thread may read at any offset.
 class OpenFile {
  public:
   static Result<OpenFile> open(const std::string& path) {
@@ -93,7 +93,7 @@ LasFacts facts_of(const las::Header& header, const las::Tally& tally) {
   return facts;
 }
 
-/// Why a choice leaves no point.
+/// The reasons why a selection has no points.
 std::string describe_rest(const LasFacts& facts) {
   std::string text;
   const auto add = [&](std::uint64_t count, const char* what) {
@@ -119,7 +119,7 @@ Result<void> refuse_options(const std::string& path, const ReadPointsOptions& op
   return {};
 }
 
-/// The unit of heights that the keys of GeoTIFF name; none: that of the vertical CRS.
+/// The unit of heights given by GeoTIFF keys, else the unit of the vertical CRS.
 HeightUnit unit_of(const las::CrsFacts& crs, const HeightUnit& vertical) {
   switch (crs.vertical_unit) {
     case 9001:
@@ -133,7 +133,7 @@ HeightUnit unit_of(const las::CrsFacts& crs, const HeightUnit& vertical) {
   }
 }
 
-/// Notes the CRS that the file declares, as far as this build knows it.
+/// Sets the CRS declared by the file, as far as this build knows it.
 void note_crs(const las::CrsFacts& crs, PointSet& points) {
   points.crs = crs.definition();
   if (points.crs.empty() && crs.is_user_defined)
@@ -154,7 +154,7 @@ void note_crs(const las::CrsFacts& crs, PointSet& points) {
                   points.path, crs.citation.empty() ? "" : " (" + crs.citation + ")"));
 }
 
-/// Places x and y, and settles the unit of the heights.
+/// Sets the frame of x and y, and the unit of the heights.
 Result<void> place(const las::CrsFacts& crs, const ReadPointsOptions& options, PointSet& points) {
   note_crs(crs, points);
   const bool needs_crs = !options.crs.empty() && options.crs != "source" && options.crs != "grid";

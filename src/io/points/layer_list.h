@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// The names in `wanted`: one if it is a layer's name, though it may have commas; else those between commas.
+/// The names in `wanted`: all of it if it is a layer's name, even with commas; else the parts between commas.
 template <class Exists>
 std::vector<std::string> layer_list(const std::string& wanted, Exists&& exists) {
   if (exists(wanted)) return {wanted};

@@ -1,4 +1,4 @@
-// Lines of a set of points, while a file is read.
+// Builds the lines of a set of points while a file is read.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace scarp {
 
-/// Makes a line of points as they are added to a set, without repetitions; a ring ends with its first point.
+/// Builds a line of points as they are added to a set, without repetitions. A ring ends with its first point.
 class LinePoints {
  public:
   explicit LinePoints(PointSet& points) : points_(points), first_(static_cast<std::uint32_t>(points.size())) {}
 
-  /// Appends the last point of the set. It leaves the set again if it repeats the line's last or first.
+  /// Appends the set's last point to the line. Removes it from the set if it repeats the line's last or first point.
   void add_last() {
     const auto here = static_cast<std::uint32_t>(points_.size() - 1);
     const bool is_repeated = !line_.points.empty() && is_same(here, line_.points.back()),
@@ -27,7 +27,7 @@ class LinePoints {
     if (!is_repeated) line_.points.push_back(is_closed ? first_ : here);
   }
 
-  /// Adds the line to the set; false, and no line, if its points are fewer than two.
+  /// Adds the line to the set; returns false without adding if it has fewer than two points.
   bool finish(std::string name, bool keeps_vertices = false) {
     if (line_.points.size() < 2) return false;
     line_.name = std::move(name);

@@ -1,7 +1,6 @@
-// A text of columns seldom declares what they hold. A header line does. Without one the columns are x, y and height,
-// unless labels stand in front of them: then they may as well be northing, easting and height, as surveyors write them.
-// The two are distinguished only where the values do it; else the user is asked, since a mirrored mesh resembles land,
-// too.
+// Text in columns seldom has a header line that declares their contents. Without a header, the columns are x, y and
+// height. After labels, they may also be northing, easting and height, the order of surveyors. If the values do not
+// show the order, the user must give it, since a mirrored mesh also resembles land.
 #include "io/points/point_columns.h"
 
 #include <fmt/format.h>
@@ -67,7 +66,7 @@ std::string describe(const PointColumns& columns, std::size_t count) {
   return words;
 }
 
-/// Puts the columns of x, y and height in place by the names of a header; false where one is missing.
+/// Finds the columns of x, y and height by a header's names; false if one is missing.
 bool read_names(const std::string& z_field, PointColumns& columns, std::size_t& missing) {
   for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
     std::optional<std::size_t> best;
@@ -75,7 +74,7 @@ bool read_names(const std::string& z_field, PointColumns& columns, std::size_t& 
     for (std::size_t k = 0; k < columns.names.size(); ++k) {
       const std::string& name = columns.names[k];
       if (is_named ? lowered(name) != lowered(z_field) : role_of(name) != kAxes[axis]) continue;
-      // The first of two names alike counts: "n, UTM_N, UTM_E".
+      // The first of several names of equal rank counts, unless it is in the first column: "n, UTM_N, UTM_E".
       const auto is_better = [&] {
         const std::size_t rank = rank_of(name), least = rank_of(columns.names[*best]);
         return rank < least || (rank == least && *best == 0 && axis < 2);
@@ -104,7 +103,7 @@ void take_units(PointColumns& columns) {
   }
 }
 
-/// The option's value for columns that have these places.
+/// The value of --columns for columns at these positions.
 std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool has_number) {
   std::string text(std::min(count, kMostColumns), '-');
   text.resize(*std::max_element(at.begin(), at.end()) + 1);
@@ -113,7 +112,7 @@ std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool ha
   return text;
 }
 
-/// Warns of headers with x and y where geodesists call the northing x: it is the larger one, or y stands before it.
+/// Warns of headers with x and y in which x may be the northing, as for geodesists: x is larger, or y precedes it.
 void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
   const auto [x, y, height] = columns.at;
   if (std::max(x, y) >= rows.columns.size()) return;
@@ -133,7 +132,7 @@ bool are_degrees(const ColumnFacts& a, const ColumnFacts& b, const ColumnFacts& 
          height.extent() > 10 * extent;
 }
 
-/// Checks which columns are x, y and the height, where others are more like them than the first three.
+/// Checks if other columns are more likely x, y and height than the first three.
 Result<void> check_places(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
                           PointColumns& columns) {
   const auto option_at = [&](std::size_t one, std::size_t other, std::size_t height) {
@@ -165,7 +164,7 @@ Result<void> check_places(const Rows& rows, const std::vector<std::size_t>& list
                                              other, option_at(list[0], list[1], list[2])));
 }
 
-/// Finds which of the two columns before the height is the northing.
+/// Determines which of the two columns before the height is the northing.
 Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, const std::string& name,
                         PointColumns& columns) {
   const ColumnFacts &a = rows.columns[list[0]], &b = rows.columns[list[1]], &height = rows.columns[list[2]];
@@ -176,7 +175,7 @@ Result<void> tell_apart(const Rows& rows, const std::vector<std::size_t>& list, 
                     turned_option = option_for(rows.columns.size(), turned, has_labels);
   const std::string options = fmt::format("--columns {} or --columns {}", straight_option, turned_option);
   SCARP_RETURN_IF_ERROR(check_places(rows, list, name, columns));
-  constexpr double kHighest = 1e5;  // the highest summit has 29,032 feet
+  constexpr double kHighest = 1e5;  // the highest summit is at 29,032 feet
   if (height.low > kHighest || height.high < -kHighest)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: column {} would be the height, and reaches from {:.9g} to {:.9g}: no header names the "
@@ -222,8 +221,8 @@ Result<void> read_header(std::string_view line, const std::string& name, std::ui
                           missing == 2 && !is_named ? "--z-field names another, and " : ""));
 }
 
-/// The last line of text that stands before the names of columns or before points, where the first line, `line`, is
-/// such text; else 0.
+/// The number of the last line of a preface: text before the column names or points. 0 if the first line, `line`, is no
+/// such text.
 std::uint64_t find_preface(TextLines lines, std::string_view line, const ReadPointsOptions& options) {
   constexpr int kMostLines = 50;
   std::size_t missing = 0;

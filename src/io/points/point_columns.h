@@ -1,4 +1,4 @@
-// The columns of a text that hold x, y and the height.
+// Detection of the columns of a text that hold x, y and the height.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct PointColumns {
   char separator = ',';
   std::array<std::size_t, 3> at{0, 1, 2};  ///< indices of x, y and height, from 0
   bool has_header = false;
-  bool in_degrees = false;             ///< by the names in the header
+  bool in_degrees = false;             ///< according to the header's names
   std::vector<std::size_t> heights{};  ///< other columns whose names show that they hold heights
   std::vector<std::string> names{};    ///< names in the header; may be empty
   std::array<std::string, 3> units{};  ///< units that the header names, for x, y and height; empty: none
@@ -24,15 +24,15 @@ struct PointColumns {
   bool has_decimal_comma() const { return separator != ','; }
 };
 
-/// The separator of fields: that of numbers where the line has two, else of words.
+/// The separator of a line's fields: that of its numbers if it has two, else of its words.
 char find_separator(std::string_view line);
 
-/// True for a line of words, which names columns.
+/// True for a line of words, which are column names.
 bool is_header(std::string_view line, char separator);
 
-/// By ReadPointsOptions::columns, else by a header line (or by a comment in its place), else by what the columns hold:
-/// a first column that counts is a number. Fails with kInput, in a sentence with --columns in it, where northing and
-/// easting cannot be distinguished. REQUIRES: a line that is no comment.
+/// Determines the columns by ReadPointsOptions::columns, else by a header line (or a comment instead of it), else by
+/// their contents: a first column that counts up holds point numbers. Fails with kInput and a sentence on --columns if
+/// northing and easting cannot be distinguished. REQUIRES: a line other than comments.
 Result<PointColumns> find_columns(std::string_view text, const std::string& name, const ReadPointsOptions& options);
 
 }  // namespace scarp

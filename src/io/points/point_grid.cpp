@@ -11,7 +11,7 @@ constexpr double kMostOffNode = 0.02;  // share of a step
 constexpr double kMostNodes = 20;      // for a point
 constexpr int kLeastLines = 3;
 
-/// Nodes of one axis; no count where there are none.
+/// The nodes along one axis; `count` is 0 if there are none.
 struct Axis {
   double low = 0, step = 0;
   int count = 0;
@@ -19,7 +19,7 @@ struct Axis {
   int place(double value) const { return static_cast<int>(std::lround((value - low) / step)); }
 };
 
-/// The step is the mean of the gaps that are about as wide as the median: lines may be missing, and decimals rounded.
+/// The step is the mean of gaps near the median, since lines may be missing, and decimals rounded.
 Axis find_axis(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -45,7 +45,7 @@ Axis find_axis(std::vector<double> values) {
   return axis;
 }
 
-/// Two of three nodes have another next to them in their row, and in their column.
+/// True if two of three nodes have neighbours in their row and in their column.
 bool are_neighbours(const PointGrid& grid, std::size_t points) {
   const auto cols = static_cast<std::size_t>(grid.cols), rows = static_cast<std::size_t>(grid.rows);
   std::size_t joined = 0;

@@ -1,4 +1,4 @@
-// Points that are the nodes of a raster.
+// Detection of points that are the nodes of a raster.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ struct PointGrid {
   std::vector<double> heights;  ///< by rows from the north; NaN where a node is missing
 };
 
-/// The raster whose nodes the points are, in whatever order; nothing where they lie scattered. See is_point_file() for
-/// the rule. Cost: two sorts.
+/// The raster with the points as its nodes, in any order; nothing for scattered points. See is_point_file() for the
+/// rule. Cost: two sorts.
 std::optional<PointGrid> find_grid(const PointSet& points);
 
 }  // namespace scarp

@@ -1,6 +1,6 @@
-// Points as text of columns: CSV, XYZ and their relatives.
+// Points as text in columns: CSV, XYZ and similar formats.
 //
-// The lines settle once what the columns hold (point_columns.h). After that a line costs three numbers, read in place.
+// The columns are determined once (point_columns.h). Then only three numbers per line are parsed, in place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace scarp {
 namespace {
 
-/// The first of several fields between blanks that is a number but for its comma; empty if there is none.
+/// The first of several blank-separated fields that is a number with a decimal comma; empty if there is none.
 std::string_view find_decimal_comma(std::string_view line) {
   if (trim_field(line).find_first_of(" \t") == std::string_view::npos) return {};
   while (const auto field = take_field(line, ' ')) {
@@ -66,7 +66,7 @@ tl::unexpected<Error> explain(std::string_view line, const PointColumns& columns
   return fail(ErrorKind::kInternal, fmt::format("{}: line {} cannot be read", name, number));
 }
 
-/// x, y and z of a line; NaN where a field is no finite number. False where the line ends before.
+/// Reads x, y and z of a line; NaN for a field that is no finite number. False if fields are missing.
 bool read_line(std::string_view line, const PointColumns& columns, std::array<double, 3>& point) {
   const std::size_t last = *std::max_element(columns.at.begin(), columns.at.end());
   for (std::size_t column = 0; column <= last; ++column) {
@@ -81,7 +81,7 @@ bool read_line(std::string_view line, const PointColumns& columns, std::array<do
   return true;
 }
 
-/// Small coordinates on the globe under heights that are large compared with them.
+/// True for small coordinates, possible on the globe, with heights that are large in comparison.
 bool looks_like_degrees(const PointSet& points) {
   double extent = 0, relief = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -99,7 +99,7 @@ Result<void> read_lines_of(TextLines lines, std::string_view line, const PointCo
     values->clear();
     values->reserve(guess);
   }
-  // Named columns may have a header above them that does not fit.
+  // Columns named by the option may have a header that contradicts them.
   bool has_line = !columns.has_header || lines.next(line);
   std::array<double, 3> point{};
   for (; has_line; has_line = lines.next(line)) {
@@ -135,7 +135,7 @@ std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
   return is_letter(bytes[1], bytes[0]) && is_letter(bytes[3], bytes[2]) ? "UTF-16BE" : "";
 }
 
-/// Those that the header names.
+/// Sets the units in the header.
 void take_units_of(const PointColumns& columns, PointSet& points) {
   const auto& [x, y, height] = columns.units;
   points.heights.unit = height;

@@ -1,4 +1,4 @@
-// One door for all points: the name's end, else the first bytes, decide which reader a file goes to.
+// The common entry for points: the extension, else the first bytes, select a file's reader.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The end of the name from its last dot on, in small letters.
+/// The extension with its dot, in lower case.
 std::string extension_of(const std::string& path) { return lowered(fs::path(path).extension().string()); }
 
 template <std::size_t N>
@@ -50,7 +50,7 @@ std::vector<std::uint8_t> read_head(const std::string& path) {
   return {bytes.begin(), bytes.begin() + file.gcount()};
 }
 
-/// Neither binary, nor JSON, nor XML.
+/// True for text other than JSON and XML.
 bool is_plain_text(std::span<const std::uint8_t> head) {
   const auto is_word = [](std::uint8_t c) { return c >= 0x20 || std::isspace(c) != 0; };
   const auto first = std::find_if(head.begin(), head.end(), [](std::uint8_t c) { return std::isspace(c) == 0; });
@@ -64,7 +64,7 @@ bool is_text_of_columns(const std::string& path) {
   const auto name = readable_name(path);
   const fs::file_status status = fs::status(name ? *name : path, ignored);
   if (!fs::exists(status) || fs::is_directory(status)) return false;
-  if (!fs::is_regular_file(status)) return true;  // a device cannot be examined and then read by another
+  if (!fs::is_regular_file(status)) return true;  // a device cannot be read twice
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
   if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
@@ -116,7 +116,7 @@ std::string projection_path(const std::string& path) { return fs::path(path).rep
 
 namespace {
 
-/// The LAS and LAZ files of a folder, by name; none of another path, and of a folder that holds rasters.
+/// The LAS and LAZ files of a folder, by name; none for other paths and for folders with rasters.
 std::vector<std::string> las_files_in(const std::string& path) {
   std::vector<std::string> files, others;
   std::error_code ignored;
@@ -146,7 +146,7 @@ bool is_point_file(const std::string& path) {
 
 namespace {
 
-/// By its first bytes, or by its name if there are none.
+/// Judged by its first bytes, or by its name if there are none.
 bool is_las(const std::string& path) {
   const std::vector<std::uint8_t> head = read_head(path);
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
@@ -201,8 +201,8 @@ Result<PointSet> read_files(const std::string& path, const ReadPointsOptions& op
   return points;
 }
 
-/// Warns of heights that most likely stand for a missing height. GDAL reads a vertex without a third coordinate as 0,
-/// where others of its geometry have one.
+/// Warns of heights that most likely represent missing heights. GDAL reads height 0 for a vertex without a third
+/// coordinate if other vertices of its geometry have one.
 void warn_of_missing_heights(PointSet& points) {
   std::vector<float> heights;
   heights.reserve(points.size());
@@ -219,8 +219,8 @@ void warn_of_missing_heights(PointSet& points) {
   }
 }
 
-/// The points at the place that is the farthest from all others, where those are a speck compared with the way to it;
-/// points without coordinates mostly lie at 0, 0.
+/// Warns of points at the place farthest from all others, if the others' extent is tiny compared with its distance.
+/// Points without coordinates usually lie at 0, 0.
 void warn_of_far_points(PointSet& points) {
   if (points.size() < 4) return;
   const auto middle = [](std::vector<double> values) {
@@ -234,7 +234,7 @@ void warn_of_far_points(PointSet& points) {
   for (std::size_t i = 1; i < points.size(); ++i) far = way(i) > way(far) ? i : far;
   const auto is_far = [&](std::size_t i) { return points.x[i] == points.x[far] && points.y[i] == points.y[far]; };
   std::size_t count = 0;
-  double size = 0;  // half of that of the others
+  double size = 0;  // half the extent of the others
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_far(i))
       ++count;

@@ -11,7 +11,7 @@ namespace {
 
 bool is_blank_in_line(char c) { return c == ' ' || c == '\t'; }
 
-/// True if a number that no double is near to is too small rather than too large.
+/// True if a number out of double's range is too small, not too large.
 bool is_below_one(std::string_view number) {
   const std::size_t e = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, e);

@@ -7,18 +7,18 @@
 
 namespace scarp {
 
-/// Without blanks and tabs at its ends.
+/// The text without blanks and tabs at its ends.
 std::string_view trim_field(std::string_view text);
 
-/// The lines of a text without their ends. Comments (#, //, %) and empty lines are passed over.
+/// The lines of a text without their ends. Skips comments (#, //, %) and empty lines.
 class TextLines {
  public:
   explicit TextLines(std::string_view text);
   bool next(std::string_view& line);
-  /// The number of the line that next() gave last, from 1.
+  /// The 1-based number of the line that next() returned last.
   std::uint64_t number() const { return number_; }
   std::size_t bytes_left() const { return rest_.size(); }
-  /// The comment just before the line that next() gave last, without its sign; empty if there is none.
+  /// The comment just before that line, without its sign; empty if there is none.
   std::string_view comment() const { return comment_; }
 
  private:
@@ -26,12 +26,12 @@ class TextLines {
   std::uint64_t number_ = 0;
 };
 
-/// Removes the first field from the line and returns it; nothing if there is none. ' ' stands for runs of blanks and
-/// tabs. Quotes around a field may hold separators, and are removed.
+/// Removes the first field from the line and returns it; nothing if the line has none. The separator ' ' means runs of
+/// blanks and tabs. A field in quotes may contain separators; the quotes are removed.
 std::optional<std::string_view> take_field(std::string_view& line, char separator);
 
-/// Nothing if the text is no number; infinities and NaN are numbers here, as is what overflows. A number that
-/// underflows is 0. `has_decimal_comma`: a comma stands for the point.
+/// The number in the text, which may be infinite or NaN, or overflow; 0 if it underflows; nothing if the text is no
+/// number. `has_decimal_comma`: the decimal point is a comma.
 std::optional<double> parse_field(std::string_view text, bool has_decimal_comma);
 
 }  // namespace scarp

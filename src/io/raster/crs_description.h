@@ -24,12 +24,12 @@ bool can_describe_crs();
 /// The description of a CRS named as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
 std::optional<CrsDescription> describe_crs(const std::string& crs);
 
-/// The records of a GeoTIFF that hold its CRS, as they are there.
+/// The unmodified records of a GeoTIFF that hold its CRS.
 struct GeoKeys {
   std::span<const std::uint8_t> directory, doubles, texts;
 };
 
-/// WKT of a CRS that keys describe by its parameters; empty if GDAL knows none, and in a build without GDAL.
+/// WKT of a CRS that keys describe by its parameters; empty if GDAL cannot convert them, and in a build without GDAL.
 std::string describe_geo_keys(const GeoKeys& keys);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Encoding of rasters: PGM here, GeoTIFF by GDAL.
+// Encodes rasters: PGM here, GeoTIFF by GDAL.
 #include <fmt/format.h>
 
 #include <algorithm>

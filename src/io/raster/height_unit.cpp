@@ -62,7 +62,7 @@ constexpr NamedLength kLengths[] = {{"m", 1},
                                     {"mi", 1609.344},
                                     {"mile", 1609.344}};
 
-/// Conversion factors have six digits, or more.
+/// Conversion factors have at least six digits.
 bool is_about(double one, double other) { return std::abs(one / other - 1) < 1e-5; }
 
 /// The unit assumed if none is declared.

@@ -17,12 +17,12 @@ struct HeightUnit {
 
 /// Metres per unit of length, by one of its names: "m", "Metre", "US survey foot", "cm" …
 std::optional<double> find_metres(const std::string& name);
-/// True for any kind of foot: they differ by parts in a hundred thousand.
+/// True for any kind of foot. Feet differ by a few parts in a hundred thousand.
 bool is_foot(double metres);
 
-/// The options for reading the heights of a raster in `frame`: z_scale converts them to metres if requested. info.unit
-/// is the file's unit of its values, and becomes the unit of the heights. Also sets the other height fields of `info`,
-/// and warnings. `vertical`: the unit of its vertical CRS. kUsage as described at HeightsIn.
+/// The options for reading the heights of a raster in `frame`: z_scale converts heights to metres if requested.
+/// info.unit is the unit of the file's values, and becomes the unit of the heights. Also sets the other height fields
+/// of `info`, and warnings. `vertical`: the unit of the vertical CRS. Fails with kUsage as described at HeightsIn.
 Result<ReadOptions> settle_heights(const ReadOptions& options, const Frame& frame, RasterInfo& info,
                                    const HeightUnit& vertical = {});
 

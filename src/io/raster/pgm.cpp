@@ -1,5 +1,5 @@
-// PGM. Source: the pgm(5) page of Netpbm, whose reader this one follows: '#' starts a comment that extends to the end
-// of the line and counts as a newline, and exactly one white space byte separates the header from the samples.
+// PGM. Source: the pgm(5) page of Netpbm. As in Netpbm's reader, '#' starts a comment that extends to the end of the
+// line and counts as a newline, and exactly one white space byte separates the header from the samples.
 #include "io/raster/pgm.h"
 
 #include <fmt/format.h>
@@ -31,8 +31,8 @@ class Text {
     return '\n';
   }
 
-  /// Parses a number after white space, and the byte that follows it. Nothing at the end, for other characters, and for
-  /// numbers above 2^31 − 1.
+  /// Parses a number after white space, and consumes the byte behind it. Nothing at the end, for other characters, and
+  /// for numbers above 2^31 − 1.
   std::optional<std::uint32_t> number() {
     int c = next();
     while (is_space(c)) c = next();

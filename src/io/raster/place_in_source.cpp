@@ -10,7 +10,7 @@ std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInf
   PlaceInSource place;
   place.crs = info.crs;
   if (samples == frame.affine) return place;
-  // The linear part's columns are a unit of x, and of y, in samples.
+  // The columns of the linear part are one unit of x, and one of y, in samples.
   const MapToSamples to_samples(frame.affine);
   const SamplePosition zero = to_samples.position(0, 0), x = to_samples.way(1, 0), y = to_samples.way(0, 1);
   for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {

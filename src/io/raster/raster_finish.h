@@ -10,32 +10,34 @@
 
 namespace scarp {
 
-/// kInput if the size is below 2×2, or a side is beyond an int.
+/// Fails with kInput if the size is below 2×2, or a side exceeds an int.
 Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows);
 
-/// The same; also kInput if it needs more memory than `options` or the machine allow. The message has the figures.
+/// The same; also fails with kInput if the raster needs more memory than `options` or the machine allow. The message
+/// has the figures.
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
                                const ReadOptions& options, std::uint64_t bands = 1);
 
-/// Allocates the samples; kInput on failure. Call check_raster_size() first.
+/// Allocates the samples; fails with kInput. Call check_raster_size() first.
 Result<void> allocate_samples(const std::string& name, OwnedHeightField& field, int threads = 1);
 
 /// Sets valid, min and max; then calls finish_info().
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
-/// Warns of `infinities` samples that became nodata; kInput if no sample is a height, unless they are read as values.
+/// Warns of `infinities` samples that became nodata. Fails with kInput if all samples are nodata, unless they are read
+/// as values.
 Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
 /// True if heights differ from the file's values.
 bool scales_heights(const ReadOptions& options);
-/// Scales integer values already read from a file without its own scale, by z_scale and z_offset of settle_heights(),
-/// and sets their rounding.
+/// Scales integer values, read from a file without its own scale, by z_scale and z_offset of settle_heights(), and sets
+/// their rounding.
 void scale_values(const ReadOptions& options, OwnedHeightField& field);
 
-/// The grid frame; with a cell size, a frame centred on the raster.
+/// The grid frame, or with a cell size a frame centred on the raster.
 Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options);
 
-/// The frame of a raster without georeference: kUsage if options.crs requests a position.
+/// The frame of a raster without georeference. Fails with kUsage if options.crs requests a position.
 Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows, const ReadOptions& options);
 
 /// The same for a format with a single band (`kind`: "a PGM", …). Also fails with kInput for options that request

@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// read_height_field() for all formats without a reader here; may throw std::bad_alloc. In a build without GDAL it
-/// fails with kInput and the reason.
+/// read_height_field() for formats without a reader here; may throw std::bad_alloc. In a build without GDAL it fails
+/// with kInput and the reason.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
 
 /// open_height_field(), likewise.
@@ -23,7 +23,7 @@ Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOpti
 /// encode_raster() as GeoTIFF; may throw std::bad_alloc. In a build without GDAL it fails with kOutput.
 Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster);
 
-/// Rows of a block of such a file.
+/// Rows of a block of a GeoTIFF written here.
 inline constexpr int kRowsOfBlock = 256;
 
 /// A GeoTIFF written row by row, for one thread.
@@ -35,10 +35,10 @@ class GeoTiff {
   /// Completes the file. Fails with kOutput.
   virtual Result<void> close() = 0;
 };
-/// Overwrites the file; otherwise like encode_geotiff().
+/// Creates or overwrites the file; otherwise like encode_geotiff().
 Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int cols, int rows, const RasterInfo* like);
 
-/// True if two CRS names, as in RasterInfo::crs, mean the same CRS. In a build without GDAL: if they are equal.
+/// True if two CRS names, as in RasterInfo::crs, mean the same CRS; in a build without GDAL, if they are equal.
 bool is_same_crs(const std::string& a, const std::string& b);
 
 }  // namespace scarp

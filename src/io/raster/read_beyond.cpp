@@ -1,4 +1,4 @@
-// The continuation of a raster next to a part of it: strips of three rows or columns, one of them outside.
+// Reads a raster's samples next to a part of it: strips of three rows or columns, one of them outside the part.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace scarp {
 namespace {
 
-/// Cells in the part's grid, maybe outside it.
+/// Cells in the part's grid, possibly outside the part.
 struct Cells {
   int col = 0, row = 0, cols = 0, rows = 0;
 };
 
-/// Empty unless the raster has all of the cells.
+/// Empty unless the raster has all these cells.
 Result<OwnedHeightField> read_cells(const std::string& path, ReadOptions options, const RasterInfo& info,
                                     const Cells& cells) {
   const std::array<double, 6>& gt = info.geotransform;

@@ -39,7 +39,7 @@ Result<Reader> find_reader(const std::string& path, const RasterView& view) {
   return Reader::kGdal;
 }
 
-/// kInput if the file and its samples as floats need more than the limit when read as a whole.
+/// Fails with kInput if the whole file and its samples as floats exceed the memory limit.
 Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(*readable_name(path), ignored);

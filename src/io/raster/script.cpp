@@ -1,4 +1,4 @@
-// Scripts: one step a line.
+// Scripts: one step per line.
 #include "io/raster/script.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ struct Step {
   bool inserts = false;
 };
 
-/// A complaint about the cursor's line, or an empty string. The cursor stays within the line.
+/// Returns a complaint about the cursor's line, or an empty string. The cursor stays within the line.
 std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step>& step) {
   const auto next = [&] {
     const std::string_view word = cursor.word();
@@ -49,7 +49,7 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step
 /// The steps of previous lines for each sample.
 class Said {
  public:
-  /// A complaint if an earlier line requests the opposite, or an empty string.
+  /// Returns a complaint if an earlier line requests the opposite, or an empty string.
   std::string add(const Step& step, std::size_t line) {
     const auto key = (static_cast<std::uint64_t>(step.at.row) << 32) | static_cast<std::uint32_t>(step.at.col);
     const auto [found, is_new] = samples_.try_emplace(key, step.inserts, line);

@@ -19,7 +19,7 @@ struct StmHeader {
   std::size_t samples_at = 0;
 };
 
-/// Parses digits and one space after them; at most 2^31 − 1.
+/// Parses a number of at most 2^31 − 1, and one space.
 bool take_number(std::span<const std::uint8_t> bytes, std::size_t& at, std::uint32_t& out) {
   std::uint64_t value = 0;
   const std::size_t start = at;

@@ -12,10 +12,10 @@ namespace scarp {
 /// True if the bytes begin like an STM.
 bool is_stm(std::span<const std::uint8_t> bytes);
 
-/// A text header "STM width height ", four bytes that are 0x04030201 in the writer's byte order, a newline; then
-/// unsigned 16-bit samples in that byte order, rows from the north-west corner. 65535 is missing unless options.nodata
-/// names another value. Grid frame. Fails with kInput: not an STM, an unknown byte order, size below 2×2, samples
-/// missing or trailing bytes.
+/// Decodes a text header "STM width height ", four bytes that are 0x04030201 in the writer's byte order, a newline, and
+/// unsigned 16-bit samples in that byte order, by rows from the north-west corner. 65535 is nodata unless
+/// options.nodata is another value. Grid frame. Fails with kInput: not an STM, an unknown byte order, size below 2×2,
+/// samples missing or trailing bytes.
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 

@@ -1,4 +1,4 @@
-// 3D Tiles Archive Format 1.3: a ZIP archive whose last entry lists the offsets of the others, by the MD5 of their
+// 3D Tiles Archive Format 1.3: a ZIP archive whose last entry lists the other entries' offsets, by the MD5 of their
 // names.
 #include <fmt/format.h>
 

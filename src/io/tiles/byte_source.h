@@ -12,7 +12,7 @@ namespace scarp {
 
 class ByteSource {
  public:
-  /// Fails with kInput unless it is a readable regular file.
+  /// Fails with kInput unless `path` is a readable regular file.
   static Result<std::unique_ptr<ByteSource>> open(const std::string& path);
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;

@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// A horizon point that hides a tile from no viewer near a planet.
+/// Distance of a horizon point that hides a tile from no viewer near a planet.
 constexpr double kFarOut = 1000;
 
 std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& steps) {
@@ -19,7 +19,7 @@ std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& 
   return point;
 }
 
-/// Degrees of shared vertices give the same bits on both sides of an edge, also across the antimeridian.
+/// Degrees give shared vertices the same bits on both sides of an edge, also across the antimeridian.
 Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Ground& ground,
                       double below = 0) {
   const DegreeBox box = grid.bounds_of(tile.id);
@@ -41,7 +41,7 @@ bool has_tile_beside(const TileGrid& grid, TileId id, int to_east, int to_north)
 
 enum class Way { kUp, kDown };
 
-/// In their order along the edge.
+/// The vertices of an edge in order.
 std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& across, std::uint16_t edge,
                                           const std::vector<std::uint16_t>& along, Way way) {
   std::vector<std::uint32_t> vertices;
@@ -83,7 +83,7 @@ Space lattice_steps(const PyramidPlan& plan, int z) {
     return {cells * raster.cell_x, cells * raster.cell_y, level.quantum};
   }
   const double side = plan.grid.tile_width(z, plan.ellipsoid.semi_major);
-  // Leaves room for relief; float32 holds what 16 bits do not.
+  // The factor leaves space for relief; larger tiles use float32.
   const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
   const double step = std::max(least_step, std::clamp(short_step, power_of_two_below(level.max_error / 256),
                                                       power_of_two_below(level.max_error / 32)));
@@ -103,7 +103,7 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   const Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
   placed.steps = lattice_steps(plan, tile.id.z);
-  // At the end of a local grid's raster the mesh ends within the tile.
+  // At the border of a local grid's raster, the mesh ends within the tile.
   const std::uint16_t east = *std::max_element(tile.u.begin(), tile.u.end()),
                       north = *std::max_element(tile.v.begin(), tile.v.end());
   placed.west = vertices_along(tile.u, 0, tile.v, Way::kUp);

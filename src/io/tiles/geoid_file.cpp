@@ -1,4 +1,4 @@
-// A reference surface of heights, from a file.
+// Reads a reference surface of heights from a file.
 #include <fmt/format.h>
 
 #include <algorithm>

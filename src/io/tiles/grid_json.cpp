@@ -8,7 +8,7 @@ namespace scarp {
 namespace {
 
 constexpr double kMostSamples = 1 << 30;
-/// Cells of a tile: a larger square is the smallest that contains the raster.
+/// Cells per tile; a square with more cells is the smallest one that contains the raster.
 constexpr double kMostCells = 256;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A grid of tiles in the JSON of plans and sets.
+// A grid of tiles as JSON, for plans and sets.
 #pragma once
 
 #include <optional>

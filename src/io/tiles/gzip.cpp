@@ -10,10 +10,10 @@ namespace {
 /// zlib's windowBits: the largest window, in a gzip file.
 constexpr int kGzipWindow = 15 + 16;
 
-/// zlib's memLevel for a mesh: code tables then cover few enough symbols that positions, heights, triangles and normals
-/// each get their own.
+/// zlib's memLevel for a mesh: so few symbols share a code table that positions, heights, triangles and normals have
+/// separate tables.
 constexpr int kMeshMemory = 5;
-/// Files smaller than this, in bytes, or reduced below this share may contain repetitions.
+/// Files below this size in bytes, or compressed below this fraction, may contain repetitions.
 constexpr std::size_t kSmallMesh = 6000;
 constexpr double kRepeats = 0.46;
 

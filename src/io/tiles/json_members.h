@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Null if the member is missing, or `object` is no object.
+/// Null if the member is missing or `object` is no object.
 inline const Json* find_member(const Json* object, const char* key) {
   if (object == nullptr || !object->is_object()) return nullptr;
   const auto found = object->find(key);

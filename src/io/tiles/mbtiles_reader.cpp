@@ -11,8 +11,8 @@
 namespace scarp {
 namespace {
 
-/// A database can run programs: its views may make a query endless. So each query has a limit, far above the steps that
-/// an honest file of `size` bytes needs. Queries run one at a time.
+/// Limits the steps of a query, since a hostile database's views can make it endless. The limit is far above the need
+/// of an honest file of `size` bytes. Queries run one at a time.
 class Question {
  public:
   Question(sqlite3* database, std::uint64_t size) : database_(database), left_((kLeastSteps + 20 * size) / kEach) {
@@ -43,7 +43,7 @@ class Question {
 class MbtilesReader final : public TileSetReader {
  public:
   static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
-    // reports failures in Scarp's words, and gives the size
+    // also reports failures in Scarp's words
     SCARP_TRY(const auto& source, ByteSource::open(path));
     std::unique_ptr<MbtilesReader> reader(new MbtilesReader(path, source->size()));
     SCARP_RETURN_IF_ERROR(reader->read_contents());

@@ -1,5 +1,5 @@
-// MBTiles 1.3 in SQLite. The specification assumes the Mercator grid; here level, column and row are those of the
-// geographic grid, as in other programs with terrain in MBTiles. Files other than tiles are in a separate table.
+// MBTiles 1.3 in SQLite. The specification assumes the Mercator grid. Level, column and row here are those of the
+// geographic grid, as in other programs that store terrain in MBTiles. Files other than tiles are in a separate table.
 #include <fmt/format.h>
 
 #include <tuple>

@@ -1,4 +1,4 @@
-// MD5 (RFC 1321), by which the name table of .3tz archives is sorted. Not for security.
+// MD5 (RFC 1321), for sorting the name table of .3tz archives. Not for security.
 #pragma once
 
 #include <array>

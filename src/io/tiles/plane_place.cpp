@@ -10,11 +10,11 @@
 namespace scarp {
 namespace {
 
-/// Cells of a tile; the centre does not depend on them.
+/// Cells of a tile; the value does not affect the centre.
 constexpr int kAnyCells = 128;
 
-/// Largest distance of a plane from the globe without a warning, relative to the distance from the centre to a corner:
-/// on the earth that is the depth of corners 127 km away.
+/// Largest distance of a plane from the globe without a warning, relative to the distance from the centre to a corner.
+/// On the earth, corners 127 km from the centre reach it.
 constexpr double kWorthSaying = 0.01;
 
 /// Warns if the raster covers too large a part of a globe for a plane.

@@ -1,7 +1,7 @@
-// PMTiles, version 3: the numbers of tiles, the header and the directories (the public specification, 3.x).
+// PMTiles, version 3 (public specification 3.x): the numbers of tiles, the header and the directories.
 //
-// PMTiles has one tile at its top, a pyramid of the geographic grid two. So its level z is stored as zoom z + 1, whose
-// upper half it fills; that of the Mercator grid as zoom z: x unchanged, y from the north.
+// PMTiles has one tile at zoom 0. A pyramid of the geographic grid has two at level 0, so its level z is stored in the
+// upper half of zoom z + 1. Level z of the Mercator grid is stored as zoom z. x is unchanged, y counts from the north.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace scarp {
 
-/// The zoom of level 0.
+/// The zoom that stores level 0.
 int pmtiles_zoom_offset(const TileGrid& grid);
-/// Its position on the concatenated Hilbert curves of all zooms.
+/// The tile's position on the concatenated Hilbert curves of all zooms.
 std::uint64_t pmtiles_number(TileId id, const TileGrid& grid);
-/// The inverse; nothing if the grid has no such tile.
+/// The inverse; nothing for a tile outside the grid.
 std::optional<TileId> find_pmtiles_id(std::uint64_t number, const TileGrid& grid);
 
 /// Tiles `number` to `number + run - 1`, all with the same bytes; a directory if run is 0.
@@ -29,7 +29,7 @@ struct PmtilesEntry {
 };
 /// Uncompressed.
 std::vector<std::uint8_t> encode_pmtiles_directory(std::span<const PmtilesEntry> entries);
-/// Nothing for an invalid directory: numbers must increase, and lengths be above 0. At most `most` entries.
+/// Nothing for an invalid directory: numbers must increase, lengths exceed 0, and entries not exceed `most`.
 std::optional<std::vector<PmtilesEntry>> decode_pmtiles_directory(std::span<const std::uint8_t> bytes,
                                                                   std::uint64_t most);
 
@@ -49,10 +49,10 @@ struct PmtilesHeader {
 };
 /// The header of a clustered archive with a tile type unknown to PMTiles.
 std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const PmtilesHeader& header);
-/// Fails with kInput, with the end of a sentence, for other files and versions. Omits the bounds.
+/// Fails with kInput and the end of a sentence for other files and versions. Omits the bounds.
 Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes);
 
-/// Limit for the metadata unpacked from `packed` bytes: below the maximum of gzip, and above the needs of tile
+/// Size limit for the metadata unpacked from `packed` bytes: below gzip's maximum, and above the needs of tile
 /// metadata.
 constexpr std::uint64_t most_pmtiles_metadata(std::uint64_t packed) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30, kRatio = 256;

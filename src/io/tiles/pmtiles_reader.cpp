@@ -184,7 +184,7 @@ class PmtilesReader final : public TileSetReader {
   }
 
   std::unique_ptr<ByteSource> source_;
-  std::uint64_t most_tiles_;  ///< limit for a file of its size, unless all its tiles are equal
+  std::uint64_t most_tiles_;  ///< limit by the file's size, unless all tiles are equal
   PmtilesHeader header_;
   TileFormat format_ = TileFormat::kQuantizedMesh;
   TileGrid grid_;

@@ -19,15 +19,14 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Readers request the header and the root at once, 16,384 bytes.
 constexpr std::size_t kMostRoot = 16384 - kPmtilesHeaderSize;
-/// Limit of all other files.
+/// Size limit of all files other than tiles.
 constexpr std::size_t kMostFiles = std::size_t{1} << 29;
 
 struct Directories {
   Bytes root, leaves;
 };
 
-/// All entries in the root if they fit, otherwise in leaf directories of equal numbers of tiles, as many as fit the
-/// root.
+/// Puts all entries in the root if they fit, else in leaf directories of equal size, as many as fit the root.
 Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   constexpr std::size_t kMostTried = 16384, kLeastLeaf = 4096;
   if (entries.size() <= kMostTried) {
@@ -48,7 +47,7 @@ Result<Directories> make_directories(std::span<const PmtilesEntry> entries) {
   }
 }
 
-/// Other files are members of "files": JSON as its text, others as the base64 of their bytes.
+/// Other files are members of "files": JSON files as text, others as base64 of their bytes.
 Result<Bytes> make_metadata(const TileSpool& spool, TileFormat format, const SetFacts& facts) {
   using Json = nlohmann::ordered_json;
   Json files = Json::object();

@@ -51,14 +51,14 @@ void add_deltas(Writer& writer, const std::vector<std::uint16_t>& values) {
   }
 }
 
-/// Heights in steps between the header's two heights.
+/// Heights as steps between the header's two heights.
 struct HeightSteps {
   float low = 0, high = 0;
   std::vector<std::uint16_t> h;
 };
 
-/// The header's heights are 32767 steps apart, with spare room below. A step is the level's quantum divided by a power
-/// of two, so that every possible height of a neighbour's edge is a multiple of it.
+/// The header's heights are 32767 steps apart, with spare steps below the lowest vertex. A step is the level's quantum
+/// divided by a power of two, so that every possible height of a neighbour's edge is a multiple of it.
 HeightSteps choose_steps(const TerrainTile& tile) {
   const auto [bottom, top] = std::minmax_element(tile.heights.begin(), tile.heights.end());
   HeightSteps steps;
@@ -113,7 +113,7 @@ void add_extension(Writer& writer, std::uint8_t id, std::size_t length) {
   writer.add(static_cast<std::uint32_t>(length));
 }
 
-/// A reader of hostile files; never reads beyond the end.
+/// Reads hostile files; never reads beyond the end.
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -132,7 +132,7 @@ class Reader {
     at_ += sizeof value;
     return value;
   }
-  /// A count of items of `size` bytes each that still fit; 0 and failed() otherwise.
+  /// Reads a count of items of `size` bytes each; 0 and failed() if these do not fit.
   std::size_t take_count(std::size_t size) {
     const std::size_t count = take<std::uint32_t>();
     if (count <= left() / size) return count;

@@ -1,4 +1,4 @@
-// Tile sets in one file: the common part of all such containers.
+// The common parts of all containers that hold a tile set in one file.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,15 @@
 
 namespace scarp {
 
-/// A container format: writing a spooled set to it, and reading it. write() sorts the spool and writes the whole file;
-/// StagedFile::end() follows. open() fails with kInput.
+/// A container format. write() sorts the spool and writes the whole file; the caller then calls StagedFile::end().
+/// open() fails with kInput.
 struct Archive {
   std::string_view ending;
   Result<void> (*write)(TileSpool& spool, TileFormat format, StagedFile& file);
   Result<std::unique_ptr<TileSetReader>> (*open)(const std::string& path);
 };
 
-/// By the extension of the path, in any case; null for folders.
+/// The format by the path's extension, in upper or lower case; null for folders.
 const Archive* find_archive(const std::string& path);
 
 Result<std::unique_ptr<TileSetWriter>> create_archive_set(const Archive& archive, const std::string& path,

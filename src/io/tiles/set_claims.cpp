@@ -101,7 +101,7 @@ void read_projection(const Json& layer, SetClaims& claims) {
   claims.grid = grid.value_or(TileGrid{});
 }
 
-/// Reads the URL templates of tiles: clients stop without them.
+/// Checks the URL templates of tiles, without which clients stop.
 void read_addresses(const Json& layer, SetClaims& claims) {
   const Json* const tiles = find_member(&layer, "tiles");
   const bool has_some = tiles != nullptr && tiles->is_array() && !tiles->empty();

@@ -17,7 +17,7 @@ struct ClaimedTiles {
   std::uint32_t x = 0, y = 0, end_x = 0, end_y = 0;
 };
 
-/// A tile listed in tileset.json itself: the root of implicit tiles, or without any.
+/// A tile listed in tileset.json itself; may be the root of implicit tiles.
 struct ClaimedRoot {
   std::string volume;           ///< "region" or "box"; empty if absent or invalid
   std::vector<double> numbers;  ///< numbers of the volume: 6 or 12
@@ -26,11 +26,11 @@ struct ClaimedRoot {
   bool has_transform = false;
   std::vector<double> transform;  ///< 16; empty if invalid
   bool is_implicit = false;
-  std::optional<std::uint64_t> levels;  ///< if implicit: the available levels
+  std::optional<std::uint64_t> levels;  ///< the available levels, if implicit
 };
 
 struct SetClaims {
-  std::vector<std::string> faults;                ///< sentences: missing, unreadable or invalid contents
+  std::vector<std::string> faults;                ///< sentences on missing, unreadable or invalid contents
   std::vector<std::vector<ClaimedTiles>> levels;  ///< announced tiles
   bool announces_all = true;                      ///< false if tiles themselves announce others
   std::vector<std::optional<double>> node_errors, bounds, source_errors;  ///< by level, in Scarp's sets
@@ -47,7 +47,7 @@ struct SetClaims {
   std::optional<std::array<double, 2>> off_globe;  ///< offset of a local grid: ground metres, and height
 };
 
-/// Handles hostile files: invalid claims are added to the faults.
+/// Handles hostile files: invalid claims become faults.
 SetClaims read_set_claims(const TileSetReader& set);
 
 }  // namespace scarp

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kRandomEnd = "XXXXXX", kOldEnd = ".old";
 
-/// The common prefix of all folders that runs on this machine create for a set of that name.
+/// The common prefix of all folders created on this machine for a set of that name.
 std::string beginning_for(const fs::path& target) {
   std::array<char, 256> machine{};
   ::gethostname(machine.data(), machine.size() - 1);
@@ -35,7 +35,7 @@ std::string beginning_for(const fs::path& target) {
 
 struct FolderLock {
   int fd = -1;            ///< -1: another process's folder, or no locks in the file system
-  bool is_other = false;  ///< another process holds or has deleted the folder
+  bool is_other = false;  ///< another process has locked or deleted the folder
 };
 
 FolderLock lock_folder(const fs::path& folder) {
@@ -45,7 +45,7 @@ FolderLock lock_folder(const fs::path& folder) {
   }, named{};
   const bool is_locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
   bool is_other = !is_locked && errno == EWOULDBLOCK;
-  // It may have been deleted before it was locked.
+  // The folder may have been deleted before it was locked.
   if (is_locked)
     is_other = ::fstat(fd, &held) != 0 || ::lstat(folder.c_str(), &named) != 0 || held.st_ino != named.st_ino ||
                held.st_dev != named.st_dev;
@@ -70,7 +70,7 @@ void remove_left(const fs::path& beside, const fs::path& target, const std::stri
     fs::remove_all(folder, error);
     ::close(lock.fd);
   }
-  // The replaced set is the only one until the new one is renamed.
+  // Until the new set is renamed, the moved old set is the only one.
   if (!old.empty() && fs::exists(target, error)) {
     for (const fs::path& folder : old) fs::remove_all(folder, error);
   }

@@ -8,11 +8,11 @@
 namespace scarp {
 
 /// Its name is ".scarp-tiles-", a hash of the final name and the machine's name, and a random suffix. The process locks
-/// it; the lock ends with the process in any case.
+/// it; the lock always ends with the process.
 class StagedFolder {
  public:
-  /// First deletes folders for the same final name left by killed processes of this machine. `target`: the final name.
-  /// Fails with kOutput if no folder can be created.
+  /// First deletes folders of killed processes of this machine for the same final name. `target`: the final name. Fails
+  /// with kOutput if no folder can be created.
   static Result<StagedFolder> create_beside(const std::filesystem::path& target);
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder(const StagedFolder&) = delete;
@@ -21,9 +21,9 @@ class StagedFolder {
   ~StagedFolder();
 
   const std::filesystem::path& path() const { return path_; }
-  /// The path to which finish() of a set moves the set that it replaces.
+  /// The path to which TileSetWriter::finish() moves the replaced set.
   std::filesystem::path path_of_old() const;
-  /// It has been renamed and will not be deleted.
+  /// Keeps the folder, which has been renamed.
   void release() { path_.clear(); }
 
  private:

@@ -1,4 +1,4 @@
-// Tiles announced by implicit tiling: subtrees of 3D Tiles 1.1.
+// Reads subtrees of 3D Tiles 1.1, which announce tiles by implicit tiling.
 #pragma once
 
 #include "io/mesh/glb_json.h"
@@ -6,7 +6,7 @@
 
 namespace scarp {
 
-/// Adds the tiles of all subtrees of the tileset, with their known facts. Unreadable parts are added to the faults.
+/// Adds the tiles of the tileset's subtrees, with their known facts. Unreadable parts become faults.
 void read_subtrees(const TileSetReader& set, const Json& tileset, SetClaims& claims);
 
 }  // namespace scarp

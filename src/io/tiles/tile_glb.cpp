@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kTileEdges = "CESIUM_tile_edges";
 constexpr const char* kWebpExtension = "EXT_texture_webp";
-/// 65535 itself ends a strip of triangles.
+/// Index 65535 would end a strip of triangles.
 constexpr std::size_t kShortIndices = 65535;
 constexpr std::uint32_t kShort = 65535;
 constexpr double kMostUnlike = 4;
@@ -41,7 +41,7 @@ std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
 
 using Steps = std::array<std::uint32_t, 3>;
 
-/// Vertices of the file: index in the tile, for normal and texture coordinates, and position.
+/// Vertices of the file: index in the tile (for normal and texture coordinates), and position.
 struct GlbVertices {
   std::vector<std::uint32_t> of;
   std::vector<Steps> offsets;
@@ -159,7 +159,7 @@ class TileGlbWriter {
                                          0.0, origin[0], origin[1], origin[2], 1.0}}}});
   }
 
-  /// Clients transform normals by the inverse of the matrix; on a globe its scale is uniform.
+  /// Clients transform normals by the matrix's inverse. On a globe, the matrix's scale is uniform.
   std::array<double, 3> normal_before_matrix(std::uint32_t v) const {
     auto [x, y, z] = tile_.normals[v];
     const auto& [east, north, up] = tile_.steps;
@@ -222,7 +222,7 @@ class TileGlbWriter {
   std::size_t add_normals(const GlbVertices& vertices) {
     const std::uint64_t count = vertices.of.size();
     std::size_t view = 0;
-    // Bytes are too coarse for a plane's normals if its steps differ much by axis.
+    // Bytes are too coarse for a plane's normals if steps differ much between axes.
     const auto [least, most] = std::minmax_element(tile_.steps.begin(), tile_.steps.end());
     const bool is_packed = is_packed_ && *most <= kMostUnlike * *least;
     if (is_packed) {
@@ -247,7 +247,7 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  /// Adds texture coordinates of vertices, from the top. The texture's outermost pixels are outside the tile.
+  /// Adds texture coordinates of vertices, measured from the top. The texture's outermost pixels are outside the tile.
   std::size_t add_places(const GlbVertices& vertices) {
     constexpr std::size_t kStride = 4;
     const std::uint64_t count = vertices.of.size();
@@ -324,7 +324,7 @@ class TileGlbWriter {
     return glb_.accessor_count() - 1;
   }
 
-  /// One view for all edges: more JSON would cost more than compression saves.
+  /// All edges share one view, since more JSON would cost more than compression saves.
   Json add_edges() {
     const std::pair<const char*, const std::vector<std::uint32_t>*> edges[] = {
         {"left", &tile_.west}, {"bottom", &tile_.south}, {"right", &tile_.east}, {"top", &tile_.north}};

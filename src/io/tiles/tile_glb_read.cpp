@@ -1,4 +1,4 @@
-// Terrain tiles from GLB files: the part of glTF that Scarp writes for them.
+// Reads terrain tiles from GLB files: the part of glTF that Scarp writes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class TileGlbReader : public GlbArrays {
     const Json* const mesh = item("meshes", 0);
     const Json* const primitives = mesh != nullptr ? member(*mesh, "primitives") : nullptr;
     if (primitives == nullptr || !primitives->is_array() || primitives->empty()) return refuse("it has no mesh");
-    // Besides the surface, only a skirt is allowed.
+    // Only a skirt is allowed in addition to the surface.
     for (std::size_t k = 1; k < primitives->size(); ++k) {
       if (k > 1 || !is_skirt((*primitives)[k])) return refuse("it has more surfaces than one");
     }
@@ -83,7 +83,7 @@ class TileGlbReader : public GlbArrays {
     if (!find_items(accessor, "VEC3", items)) return false;
     std::array<double, 3> scale = scale_;
     if (items.is_normalized) {
-      // Exactly: the numbers are integers of steps.
+      // Exact, since the numbers are whole steps.
       if (items.component_type != kUint16Component) return refuse("it has positions of another type than Scarp writes");
       items.is_normalized = false;
       for (double& step : scale) step /= 65535;

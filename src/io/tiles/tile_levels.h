@@ -9,10 +9,10 @@
 
 namespace scarp {
 
-/// By level: rows and columns, y · 2^32 + x. Sorted by sort().
+/// The rows and columns of tiles by level, as y · 2^32 + x. Sorted by sort().
 class TileLevels {
  public:
-  /// REQUIRES: a tile of the grid.
+  /// REQUIRES: the grid has the tile.
   void add(TileId id) {
     const auto z = static_cast<std::size_t>(id.z);
     if (levels_.size() <= z) levels_.resize(z + 1);
@@ -42,7 +42,7 @@ class TileLevels {
   std::uint64_t count_ = 0;
 };
 
-/// True if the grid has such a tile.
+/// True if a geographic grid has the tile.
 inline bool is_of_grid(TileId id) {
   return id.z >= 0 && id.z <= kMaxTileLevel && id.y >> id.z == 0 && id.x >> id.z < 2;
 }

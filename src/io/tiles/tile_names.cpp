@@ -10,7 +10,7 @@ namespace {
 
 using Parts = std::array<std::string_view, 4>;
 
-/// An integer as std::to_string() writes it, for columns and rows.
+/// Parses a column or row as std::to_string() writes it.
 std::optional<std::uint32_t> find_number(std::string_view text) {
   constexpr std::size_t kMostDigits = 9;
   if (text.empty() || text.size() > kMostDigits || (text.size() > 1 && text[0] == '0')) return {};
@@ -22,7 +22,7 @@ std::optional<std::uint32_t> find_number(std::string_view text) {
   return number;
 }
 
-/// The parts between slashes; 0 if there are more than four.
+/// Stores the parts between slashes and returns their number; 0 for more than four.
 std::size_t split(std::string_view name, Parts& parts) {
   std::size_t count = 0;
   for (;;) {

@@ -7,14 +7,14 @@
 
 namespace scarp {
 
-/// True for names of additional files in a set: a relative path without empty or hidden parts, so that it never leaves
+/// True for valid names of additional files in a set: relative paths without empty or hidden parts, which never leave
 /// the folder.
 bool is_plain_name(std::string_view name);
 
 /// True for the names of Scarp's files other than tiles.
 bool is_known_name(std::string_view name);
 
-/// True for the bytes of a layer.json or a tileset.json that marks the set as Scarp's.
+/// True for a layer.json or tileset.json that marks the set as Scarp's.
 bool bears_mark(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

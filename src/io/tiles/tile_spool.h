@@ -1,4 +1,4 @@
-// Tiles and files of a set in the order of arrival, until a container is written in its own order.
+// Stores tiles and files of a set as they arrive, until a container is written in its own order.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// Stores bytes in an unnamed file, which always vanishes with the process.
+/// Stores bytes in an unnamed file, which vanishes with the process.
 class TileSpool {
  public:
   struct Tile {
@@ -26,7 +26,7 @@ class TileSpool {
     std::uint64_t offset = 0, length = 0;
   };
 
-  /// Creates it in the folder of `path`, where the set will need as much space. Fails with kOutput.
+  /// Creates the file in the folder of `path`, where the set will need as much space. Fails with kOutput.
   static Result<std::unique_ptr<TileSpool>> create_beside(const std::string& path);
   TileSpool(const TileSpool&) = delete;
   TileSpool& operator=(const TileSpool&) = delete;
@@ -35,7 +35,7 @@ class TileSpool {
   Result<void> add(TileId id, std::span<const std::uint8_t> bytes);
   Result<void> add(const std::string& name, std::span<const std::uint8_t> bytes);
 
-  /// In the order of arrival, or of the last sort.
+  /// In the order of arrival, or as last sorted.
   const std::vector<Tile>& tiles() const { return tiles_; }
   template <class Less>
   void sort_tiles(Less less) {

@@ -23,7 +23,7 @@ constexpr int kSubtreeLevels = 5;
 constexpr const char* kClass = "tile";
 constexpr const char* kSphere = "TILE_BOUNDING_SPHERE";
 
-/// Interleaves the bits of x and y, x first: the index of a tile of a level in a subtree.
+/// The index of a tile in its level of a subtree: the interleaved bits of x and y, x first.
 std::uint32_t interleave(std::uint32_t x, std::uint32_t y) {
   std::uint32_t code = 0;
   for (int bit = 0; bit < kSubtreeLevels; ++bit)
@@ -139,7 +139,7 @@ std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles, 
 std::string content_name(std::uint32_t root) { return fmt::format("{}/{{level}}/{{x}}/{{y}}.glb", root); }
 std::string subtree_name(std::uint32_t root) { return fmt::format("subtrees/{}/{{level}}/{{x}}/{{y}}.subtree", root); }
 
-/// The heights' semantics, above the ellipsoid, do not fit a local grid.
+/// The semantics of heights above the ellipsoid do not apply to a local grid.
 Json describe_classes(bool is_flat) {
   const auto number = [&](const char* type, const char* semantic) {
     Json json{{"type", type}, {"componentType", "FLOAT64"}, {"required", true}};
@@ -169,7 +169,7 @@ Json describe_root(std::uint32_t root, Json volume, double error, const PyramidP
             {"subtrees", {{"uri", subtree_name(root)}}}}}};
 }
 
-/// The square of a local grid, as high as its tiles.
+/// The box of a local grid: its square, as high as its tiles.
 Json describe_square(const PyramidPlan& plan, double low, double high) {
   const LocalRaster& raster = plan.grid.local;
   const double half = static_cast<double>(raster.side) / 2, east = half * raster.cell_x, north = half * raster.cell_y;

@@ -24,7 +24,7 @@ Result<void> check_weight_count(const ChannelPlan& plan, std::size_t channels) {
                           format_plural(plan.weights.size(), "weight"), format_plural(channels, "band")));
 }
 
-/// Largest minus smallest value; 0 if there are none.
+/// Largest minus smallest value; 0 without values.
 double range_of(const std::vector<float>& band) {
   float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
   for (const float value : band) {

@@ -1,4 +1,4 @@
-// Textures and images: sample values whose errors count in addition to those of heights, or in their place.
+// Textures and images: sample values whose errors count in addition to errors of heights, or instead of them.
 #pragma once
 
 #include <string>
@@ -28,9 +28,9 @@ struct Channels {
   void attach_to(HeightField& field) const;
 };
 
-/// Reads the textures of the plan, which must lie on the grid of `heights` and have values wherever it has. The error
-/// of a sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel; all
-/// channels together count once.
+/// Reads the textures of the plan, which must lie on the grid of `heights` and have values wherever `heights` has. The
+/// error of a sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel;
+/// all channels together count once.
 Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& heights,
                                const ProgressCallback& progress);
 

@@ -63,7 +63,7 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
                      rows, beyond, file, new_file(".tif"));
 }
 
-/// In the order given.
+/// The regions of --roi, in the order given.
 Result<std::vector<Region>> read_regions(const GivenOptions& given, const RasterInfo& raster,
                                          const ProgressCallback& progress, Companions& companions) {
   ReadLinesOptions options;

@@ -1,4 +1,4 @@
-// Rasters and scripts besides INPUT that set bounds sample by sample.
+// Rasters and scripts that set bounds sample by sample.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace scarp::cli {
 
 /// The contents of the files; empty for options not given.
 struct Companions {
-  OwnedWeights mask;  ///< has a source if the heights have one, like tolerances
+  OwnedWeights mask;  ///< has a source if the heights have one; so do tolerances
   OwnedTolerances tolerances;
   Script script;
   std::vector<std::string> warnings;
@@ -32,18 +32,18 @@ struct Companions {
   Tolerances bounds() const;
 };
 
-/// How a run reads them. `memory` and `threads` matter only for heights with a source.
+/// Settings for reading them. `memory` and `threads` matter only for heights with a source.
 struct CompanionRun {
   const ProgressCallback& progress;
-  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED then
+  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED for these
   int threads = 0;           ///< number of threads that read windows
 };
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
 /// Refuses negative values. Mask: if the largest value exceeds 1, all are divided by it; no value means weight 0.
 /// Tolerance: no value means no bound. A sample in a region of interest has the smaller of the region's tolerance and
-/// the raster's; `bound` holds elsewhere. `raster`: the field's, as read. Fails with kUsage if they do not fit in
-/// memory next to heights with a source.
+/// the raster's; `bound` holds elsewhere. `raster`: the field's metadata, as read. Fails with kUsage if the values do
+/// not fit in memory next to heights with a source.
 Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                                    std::optional<double> bound, const CompanionRun& run);
 

@@ -35,7 +35,7 @@ Result<LineConstraints> read_breaklines(const GivenOptions& given, const RasterI
   if (!set) return tl::unexpected(std::move(set.error()));
   warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
   constraints.lines = std::move(set->lines);
-  // Their heights are in the file's unit, like the raster's.
+  // Lines have heights in their file's unit, like the raster.
   for (Line& each : constraints.lines) {
     for (auto& point : each.points) point[2] = raster.z_scale * point[2] + raster.z_offset;
   }

@@ -80,7 +80,7 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
                         const std::string& options) {
   const std::uint64_t taken = bytes_taken(field, limit);
   if (taken + bytes <= limit) return {};
-  const bool has_cache = field.source && !field.source->is_in_memory();  // its share is half of what the program leaves
+  const bool has_cache = field.source && !field.source->is_in_memory();  // it may use half of the remaining memory
   const std::uint64_t needed = has_cache ? kProgramBytes + 2 * bytes : taken + bytes;
   return fail(ErrorKind::kUsage, fmt::format("{} is too little: {} takes {}M; allow {}M and what the mesh needs",
                                              OptionId::kMemory, options, megabytes(bytes), megabytes(needed)));

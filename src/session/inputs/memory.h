@@ -24,20 +24,20 @@ struct MemoryNeeds {
   std::uint64_t per_sample = 4;  ///< bytes of a sample in memory, with its bound
 };
 
-/// Bytes of a sample in memory that has a bound of its own.
+/// Bytes of a sample in memory that has its own bound.
 inline constexpr std::uint64_t kBoundedSampleBytes = 24;
 
-/// Calls read_height_field() or, with a limit, open_height_field(). Half of the memory left by the program is for the
-/// samples with their bounds, or for their file's cache.
+/// Calls read_height_field() or, with a limit, open_height_field(). Half of the memory that the program does not use is
+/// for the samples and their bounds, or for their file's cache.
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 
-/// The bytes of `limit` unavailable to a run on a field read within it: for the program, samples or their file's cache,
-/// and other files.
+/// The bytes of `limit` that a run on a field read within it cannot use: those of the program, of samples or their
+/// file's cache, and of other files.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
-/// Opens another raster on the grid of a field that was read within the limit and has a source. In memory it uses at
-/// most a quarter of the memory that the program does not use; otherwise it shares the cache.
+/// Opens another raster on the grid of a field that was read within the limit and has a source. If it is in memory, it
+/// has at most a quarter of the memory that the program does not use; otherwise it shares the cache.
 Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit);
 /// The bytes of `other` in addition to bytes_taken().
 std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);
@@ -56,7 +56,7 @@ Result<void> check_in_memory(const OwnedHeightField& field, const std::string& o
 /// Rewrites the library's errors about a memory limit, or about rasters not entirely in memory, in terms of --memory.
 Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error);
 
-/// Adds the range found by the judge to the info of a raster that was not read.
+/// Adds the range that the judge found to the info of a raster that was not read.
 void complete_info(const HeightRange& judged, RasterInfo& info);
 /// Adds the range in `now`, if any.
 void complete_info(const RasterInfo& now, RasterInfo& info);

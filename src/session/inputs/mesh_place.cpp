@@ -15,7 +15,7 @@ namespace {
 
 using enum OptionId;
 
-/// In cells: frames closer than this are the same frame, rounded differently.
+/// In cells: two frames closer than this are one frame, rounded differently.
 constexpr double kSamePlace = 1e-3;
 
 /// The largest distance of any corner of the raster in the two frames, in cells.
@@ -91,7 +91,7 @@ Extent extent_of(const Mesh& mesh) {
 }
 
 Extent extent_of(const HeightField& field) {
-  constexpr int kSteps = 16;  // samples of a side, which other CRSs bend
+  constexpr int kSteps = 16;  // points along a side, which is bent in other CRSs
   std::vector<double> x, y;
   for (int k = 0; k <= kSteps; ++k) {
     const double col = (field.cols - 1.0) * k / kSteps, row = (field.rows - 1.0) * k / kSteps;

@@ -30,7 +30,7 @@ Extent extent_of(const PointSet& points);
 
 /// The six numbers of the mesh's metadata `to_source`; nothing if they are missing or malformed.
 std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh);
-/// Two maps of that form lead to the same coordinates, `from` and `to`: the map from the one's places to the other's.
+/// The map from places of `from` to places of `to`, two maps of that form to the same coordinates.
 std::array<double, 6> way_between(const std::array<double, 6>& from, const std::array<double, 6>& to);
 
 /// The raster's options; those not given are completed by the mesh's metadata.
@@ -42,7 +42,7 @@ void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 /// than in the frame that was read. True if heights were converted to metres and must be read again as "source".
 bool fit_frame(const Mesh& mesh, OwnedHeightField& field);
 
-/// For a mesh whose metadata contain its position (`to_source`): uses the mesh's frame instead of one around the
+/// For a mesh whose metadata contain its position (`to_source`): uses the mesh's frame instead of a frame around the
 /// raster's centre. Returns warnings. Does nothing for rasters without georeference or if both frames agree.
 std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field);
 

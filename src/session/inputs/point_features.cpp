@@ -38,7 +38,7 @@ Result<std::vector<Line>> read(const std::vector<std::string>& files, ReadLinesO
   return std::move(set.lines);
 }
 
-/// Warns of lines that lie elsewhere than the points, above each other or next to them.
+/// Warns of lines that are not at the points: above each other or next to the points.
 void warn_of_strangers(const std::vector<Line>& lines, PointSet& points) {
   const auto reach_of = [](const std::vector<double>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -64,7 +64,7 @@ void warn_of_strangers(const std::vector<Line>& lines, PointSet& points) {
                     format_plural(high, "place"), kBreaklines, kBreaklines));
 }
 
-/// Warns of places with two heights: that of the point counts.
+/// Warns of places with two heights, where the point's height counts.
 void warn_of_two_heights(const std::vector<Line>& lines, PointSet& points) {
   std::map<std::pair<double, double>, double> heights;
   for (const Line& line : lines) {
@@ -88,7 +88,7 @@ void warn_of_two_heights(const std::vector<Line>& lines, PointSet& points) {
 }
 
 /// Lowers tolerances to the raster's value at the point. Pixels without a value and places outside the raster have
-/// none. False if it lowers none.
+/// none. False if it lowers no tolerance.
 Result<bool> lower_by_raster(const std::string& path, PointSet& points, const ProgressCallback& progress,
                              std::vector<float>& tolerances) {
   ReadOptions options;

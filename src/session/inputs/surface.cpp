@@ -27,9 +27,9 @@ std::string metadata_of(const Mesh& mesh, const char* key) {
   return entry == mesh.metadata.end() ? "" : entry->second;
 }
 
-/// The coordinates in which the mesh has a place, and the way to them.
+/// The coordinates in which the mesh has a place, and the map to them.
 struct PlaceOfMesh {
-  std::string in;  ///< a CRS, or the words of a frame; empty: the file does not hold it
+  std::string in;  ///< a CRS, or the words of a frame; empty if the file holds none
   Affine way = kSame;
 };
 
@@ -51,7 +51,7 @@ std::string words_of(const std::string& place) {
   return crs ? crs->name : place;
 }
 
-/// The CRS of x and y themselves; empty for local coordinates, and where it is not known.
+/// The CRS of x and y themselves; empty for local coordinates, and if it is unknown.
 std::string crs_of(const Mesh& mesh) {
   const std::string crs = metadata_of(mesh, "crs");
   const PlaceOfMesh place = place_of(mesh);
@@ -59,7 +59,7 @@ std::string crs_of(const Mesh& mesh) {
   return crs.empty() && !is_turned ? metadata_of(mesh, "origin_crs") : crs;
 }
 
-/// Metres of one unit of x and y; 0 where that is not known.
+/// Metres of one unit of x and y; 0 if unknown.
 double metres_of(const Mesh& mesh) {
   const std::string option = metadata_of(mesh, "crs_option");
   if (option == "grid") return 0;
@@ -99,7 +99,7 @@ void move_by(const Affine& way, Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) turn(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
 }
 
-/// The bound of the mesh that its metadata hold, with the rounding of the samples that it was made of.
+/// The bound in the mesh's metadata, plus the rounding of the samples that it was made of.
 std::optional<double> max_error_of(const Mesh& mesh) {
   const auto error = nlohmann::json::parse(metadata_of(mesh, "error"), nullptr, false);
   if (!error.is_object()) return std::nullopt;

@@ -19,7 +19,7 @@ void drop_heights(Line& line) {
   for (auto& point : line.points) point[2] = std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The polygons of a file. Without an attribute, features are numbered in their order, after the number of the rest.
+/// The polygons of a file. Without an attribute, features are numbered in their order, after kElsewhere.
 Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given& field) {
   std::vector<Zone> zones;
   std::map<std::uint32_t, std::size_t> zone_of;  // by polygon
@@ -41,7 +41,7 @@ Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given
   return zones;
 }
 
-/// The map from `first` to `second` of the same points: first⁻¹, then second.
+/// The map from coordinates by `first` to those by `second`: first⁻¹, then second.
 std::array<double, 6> between(const std::array<double, 6>& first, const std::array<double, 6>& second) {
   const auto& a = first;
   const double determinant = a[1] * a[5] - a[2] * a[4];

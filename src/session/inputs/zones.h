@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kElsewhere = 1;
 struct ZonePlan {
   std::vector<Zone> zones;
   std::vector<Line> strings;
-  std::array<double, 6> affine{};  ///< from samples to their coordinates
+  std::array<double, 6> affine{};  ///< from samples to the lines' coordinates
 };
 
 /// Reads the files and adds their lines, without heights, to the breaklines of a mesh.

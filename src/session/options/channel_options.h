@@ -1,4 +1,4 @@
-// Options for textures and images, besides the heights or in their place.
+// Options for textures and images.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace scarp::cli {
 /// The requested textures.
 struct ChannelPlan {
   bool image = false;                 ///< INPUT itself is the image; the heights are 0
-  std::vector<std::string> textures;  ///< files besides INPUT, in the order given
+  std::vector<std::string> textures;  ///< files, in the order given
   double texture_weight = 0.5;        ///< 0: heights only … 1: textures only
   Norm norm = Norm::kSum;
   std::vector<double> weights;  ///< weights of the channels; empty: all equal

@@ -14,13 +14,13 @@ namespace {
 struct GoalUnit {
   const char* suffix;
   const char* unit;
-  double of_one;  ///< its number in one `unit`
+  double of_one;  ///< number of them in one `unit`
 };
 
 constexpr GoalUnit kGoalUnits[] = {{"%", "", 1}, {"mm", "", 1}, {"cm", "m", 100}, {"m", "m", 1}, {"ft", "ft", 1}};
 constexpr double kFoot = 0.3048;
 
-/// A goal whose number may not be finite or at least 0; nothing for other text.
+/// A goal whose number may be infinite or negative; nothing for other text.
 struct Parsed {
   ErrorGoal goal;
   std::optional<double> number;  ///< before division
@@ -87,7 +87,7 @@ Result<void> settle_goal(OptionId option, const RasterInfo& heights, ErrorGoal& 
                 fmt::format("{} is in {}, and the heights are in '{}', which is no unit of length that is "
                             "known here: give a number without a unit, or name their unit ({})",
                             option, goal.unit, heights.unit, OptionId::kZUnit));
-  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // feet of any kind mean the heights' own feet
+  const bool are_feet = std::abs(metres / kFoot - 1) < 1e-5;  // any kind of feet means the heights' own feet
   const double of_goal = goal.unit == "m" ? 1 : are_feet ? metres : kFoot;
   const double given = goal.value;
   if (of_goal != metres) goal.value *= of_goal / metres;

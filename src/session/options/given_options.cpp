@@ -28,7 +28,7 @@ Rows parts_of(Commands command, OptionId id) {
   return parts;
 }
 
-/// The part whose ",key=" or ",key" begins there, or null.
+/// The part whose ",key=" or ",key" begins the text, or null.
 const OptionRow* find_part(const Rows& parts, std::string_view text) {
   for (const OptionRow* part : parts) {
     const std::string_view key = part->key;
@@ -48,7 +48,7 @@ std::size_t find_next_part(const Rows& parts, std::string_view text, std::size_t
   return text.size();
 }
 
-/// True if there is no other "=M" in the value of a region than behind the comma, and the key is like no part's.
+/// True if the only "=M" in a region's value is at `equals`, and `key` does not resemble a part's key.
 bool is_in_name(const Rows& parts, const std::string& text, std::size_t equals, const std::string& key) {
   constexpr std::size_t kMostTypos = 2;
   return text.find('=') == equals && std::none_of(parts.begin(), parts.end(), [&](const OptionRow* part) {
@@ -56,7 +56,7 @@ bool is_in_name(const Rows& parts, const std::string& text, std::size_t equals, 
          });
 }
 
-/// Fails for ",inser=2" in the rest of a value without its parts.
+/// Fails for an unknown key, such as ",inser=2", in a value without its parts.
 Result<void> check_keys(const OptionRow& row, const Rows& parts, const std::string& text) {
   const std::size_t comma = text.rfind(','), equals = text.find('=', comma);
   if (comma == std::string::npos || equals == std::string::npos) return {};
@@ -106,7 +106,7 @@ void GivenOptions::add_row(CLI::App& command, const OptionRow& row) {
 CLI::App* GivenOptions::add_to(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(command_name(command_));
   command->set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
-  OptionId several = kNone, last = kNone;  // CLI11 gives all arguments to the first that accepts several
+  OptionId several = kNone, last = kNone;  // CLI11 passes all arguments to the first row that accepts several
   for (const OptionRow* row : accepted_rows(command_)) {
     add_row(*command, *row);
     if (!row->is_argument()) continue;

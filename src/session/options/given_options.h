@@ -23,8 +23,8 @@ class GivenOptions {
 
   explicit GivenOptions(Commands command) : command_(command) {}
 
-  /// Adds the command to the program, with all its options. Parsing writes to *this, which must not move. Finally it
-  /// checks the table's rules (option_rules.h) and throws a violation as CLI::ParseError.
+  /// Adds the command to the program, with all its options. Parsing writes to *this, which must not move. Parsing ends
+  /// with a check of the table's rules (option_rules.h), which throws CLI::ParseError.
   CLI::App* add_to(CLI::App& program);
 
   Commands command() const { return command_; }
@@ -58,11 +58,11 @@ class GivenOptions {
   /// The rasters, points or tilesets that the command reads. Never empty after parsing a command that needs one.
   const std::vector<std::string>& inputs() const;
   const std::string& input() const { return inputs().front(); }
-  /// The first of the options that was given; nothing if none was.
+  /// The first of these options that was given; nothing if none was given.
   std::optional<OptionId> first_of(std::initializer_list<OptionId> ids) const;
   /// Every option that was given, except arguments, in the order of the table.
   std::vector<const OptionRow*> given() const;
-  /// Every input file that options name, in the order of the table. Includes the layer ("FILE:LAYER") but not the
+  /// Every input file that options name, in the order of the table, with its layer ("FILE:LAYER") but without the
   /// tolerance of a region ("=M").
   std::vector<std::string> files_read() const;
   /// " --max-error 1 --cutline site.gpkg,inset=2": all options that can change the mesh, in the order of the table,

@@ -13,7 +13,7 @@ namespace scarp::cli {
 /// The requested image.
 struct ImagePlan {
   std::optional<std::string> drape;  ///< a file
-  int drape_size = 0;                ///< pixels on the longer side; 0: as many as the file has in that area
+  int drape_size = 0;                ///< pixels on the longer side; 0: those of the file in that area
   ImageFormat drape_format = ImageFormat::kJpeg;
   std::optional<int> normal_map;  ///< pixels on the longer side
 

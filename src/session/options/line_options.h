@@ -16,8 +16,8 @@ std::optional<OptionId> find_cut(const GivenOptions& given);
 /// Fails with kUsage for an invalid value of these options.
 Result<void> check_lines(const GivenOptions& given);
 
-/// The rule for lines of different heights that meet; nothing if not given. REQUIRES: check_lines() has passed, here
-/// and below.
+/// The rule for lines of different heights that meet; nothing if not given. REQUIRES, here and below: check_lines() has
+/// passed.
 std::optional<LineConflict> conflict_rule(const GivenOptions& given);
 std::optional<WallGoals> wall_goals(const GivenOptions& given);
 std::optional<RidgeGoals> ridge_goals(const GivenOptions& given);

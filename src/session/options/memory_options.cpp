@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMostBytes = 1e18;
 
-/// The value of a unit, a power of 1000 or 1024; nothing for an unknown one.
+/// The value of a unit, a power of 1000 or 1024; nothing for an unknown unit.
 std::optional<double> find_unit(std::string unit) {
   std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
   if (!unit.empty() && unit.back() == 'b') unit.pop_back();

@@ -104,7 +104,7 @@ bool holds(const OptionTerm& term, const GivenOptions& given) {
   return value.starts_with('!') ? text != std::string(value.substr(1)) : text == std::string(value);
 }
 
-/// "--vertices free": excluded values as given, parts without their option as spelled.
+/// "--vertices free". An excluded value is printed as given; a part without its option, as spelled.
 std::string describe(const OptionTerm& term, const GivenOptions& given) {
   const std::string_view value = term.value;
   if (!value.empty()) return fmt::format("{} {}", term.id, value.starts_with('!') ? *given[term.id] : value);

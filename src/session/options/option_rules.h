@@ -1,5 +1,5 @@
-// The table of rules between options: some need others, some exclude each other. Conflicts of the library's settings
-// are in src/pieces/conflicts.h.
+// The table of rules between options: some options need others, and some exclude each other. Conflicts of the library's
+// settings are in src/pieces/conflicts.h.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class GivenOptions;
 struct OptionRule {
   OptionTerm one;
   enum class Kind { kNeeds, kExcludes, kAllows } kind;
-  /// kNeeds: one of them. kExcludes: each of them. kAllows: all else is excluded, but for the group "Run".
+  /// kNeeds: one of these. kExcludes: each of these. kAllows: all others except the group "Run" are excluded.
   std::array<OptionTerm, 4> others;
   const char* why = "";  ///< end of the message
   Commands commands = kEveryCommand;

@@ -35,11 +35,11 @@ struct OutputFormat {
   bool holds_prints() const { return is_mesh() && traits_of(mesh).holds_prints; }
   /// True if the format can hold normals, uvs and colours.
   bool holds_attributes() const { return is_mesh() && traits_of(mesh).holds_attributes; }
-  /// True if the content does not rely on z being the height.
+  /// True if the content is valid even if z is not the height.
   bool holds_space() const;
-  /// True if the format has a CRS but no place for it that all readers support: a .prj file holds it.
+  /// True if a .prj file holds the CRS because the format has no place for it that all readers support.
   bool has_projection_beside() const { return is_mesh() && traits_of(mesh).has_projection_file; }
-  /// The frame of x and y unless a CRS was requested.
+  /// The frame of x and y without a requested CRS.
   DefaultFrame default_frame() const;
   /// The unit of its heights.
   HeightsIn heights_in() const;
@@ -48,8 +48,8 @@ struct OutputFormat {
 /// Parses --up: true for y.
 Result<bool> parse_up(const Given& up);
 
-/// True if the mesh must be turned y up before writing: --up, or readers of the format expect it. Not for GLB, whose
-/// writer does so. kUsage if the format supports only the other axis.
+/// True if the mesh must be turned y up before writing, by --up or because readers of the format expect it. False for
+/// GLB, whose writer turns it. kUsage if the format supports only the other axis.
 Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print);
 
 /// Uses --of if given, else the output's extension.

@@ -33,7 +33,7 @@ bool is_of_points(const GivenOptions& given, const std::string& path) {
   return given.has(kPoints) || given.has(kColumns) || is_point_file(path);
 }
 
-/// The classes of --class, in the making.
+/// The classes of --class while it is parsed.
 struct ClassList {
   std::bitset<256> wanted, unwanted;
   PointChoice choice;
@@ -44,7 +44,7 @@ struct ClassList {
     if (word == "withheld") return choice.withheld = true;
     const bool is_unwanted = word.starts_with("no-");
     if (is_unwanted) word.remove_prefix(3);
-    if (word == "overlap" && is_unwanted) {  // more than a class in formats that mark it
+    if (word == "overlap" && is_unwanted) {  // a flag, not only a class, in some formats
       choice.overlap = false;
       return true;
     }

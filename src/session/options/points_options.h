@@ -12,18 +12,18 @@
 
 namespace scarp::cli {
 
-/// True if the input is to be read as points: it was asked for, or its name shows it.
+/// True if the input is to be read as points: by --points, or by its name.
 bool are_points_meant(const GivenOptions& given);
-/// Fails if one of several inputs holds points, which make no mosaic, or if an option was given that does not hold for
-/// the input, points or raster: silence would be a lie.
+/// Fails if one of several inputs holds points, which make no mosaic. Also fails for an option that has no effect on
+/// this kind of input, points or raster.
 Result<void> check_kind_of_input(const GivenOptions& given);
 
-/// read_points() as the options ask: --layer, --z-field, --columns, --class, --returns, and the reading of a raster,
-/// `as`. Fails with kUsage for what cannot be parsed.
+/// The options of read_points() by --layer, --z-field, --columns, --class and --returns, and by `as`, those of a
+/// raster. Fails with kUsage for an invalid value.
 Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as);
 
-/// The points of all inputs as one set, with a warning of boundaries in them unless --boundary is given. Fails as
-/// read_points() and append_points() do.
+/// The points of all inputs as one set. Without --boundary, warns of boundaries in the inputs. Fails like read_points()
+/// and append_points().
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options);
 
 /// --duplicates. Fails with kUsage.
@@ -32,7 +32,7 @@ const char* policy_name(DuplicatePolicy policy);
 /// --boundary.
 struct BoundaryChoice {
   std::optional<double> length;  ///< LENGTH of concave:LENGTH
-  std::string file;              ///< file of polygons; neither: the convex hull
+  std::string file;              ///< file of polygons; without both: the convex hull
 };
 Result<BoundaryChoice> parse_boundary(const GivenOptions& given);
 

@@ -13,7 +13,7 @@ Result<ReadOptions> parse_reading(const GivenOptions& given);
 /// Completes the library's error about a raster that cannot be read, with the alternatives for standard input and
 /// vector data.
 Error explain_reading(const GivenOptions& given, Error error);
-/// --nodata: a number or NaN, nothing if not given. Fails with kUsage for other words.
+/// --nodata: a number or NaN; nothing if not given. Fails with kUsage for other words.
 Result<std::optional<double>> parse_nodata(const GivenOptions& given);
 /// The largest distance from which nodata is filled. DEFAULT: 100 if nodata is filled, else 0.
 Result<double> parse_fill_distance(const GivenOptions& given, bool is_filled);

@@ -1,4 +1,4 @@
-// Options that give samples individual weights or bounds.
+// Options that set individual weights or bounds of samples.
 #pragma once
 
 #include <string>
@@ -21,11 +21,11 @@ struct RegionFile {
 
 /// Parses FILE[:LAYER]=M. Fails with kUsage.
 Result<RegionFile> parse_region(const std::string& text);
-/// The same, with M in the unit of the heights. Fails and warns as settle_goal() does.
+/// Like parse_region(), with M in the unit of the heights. Fails and warns as settle_goal() does.
 Result<RegionFile> settle_region(const std::string& text, const RasterInfo& heights,
                                  std::vector<std::string>& warnings);
 /// The falloff; 0: none. In metres if the unit of x and y has a known length (`has_metres`), else in that unit. kUsage
-/// for a length where none is known.
+/// for a falloff with a unit if the length is unknown.
 Result<double> read_falloff(const GivenOptions& given, bool has_metres);
 /// Fails with kUsage for an invalid region or falloff.
 Result<void> check_regions(const GivenOptions& given);

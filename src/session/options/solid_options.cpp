@@ -12,7 +12,7 @@ namespace {
 
 using enum OptionId;
 
-/// KEY=VALUE, or a lone word without a value.
+/// KEY=VALUE, or KEY without a value.
 using Pair = std::pair<std::string, std::optional<std::string>>;
 
 std::vector<Pair> split_pairs(const std::string& text) {

@@ -24,7 +24,7 @@ constexpr Choice<Effort> kEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
 
-/// Removes `prefix` and `suffix` from the text; false, without change, unless it has both.
+/// Removes `prefix` and `suffix` from the text. False, without change, unless the text has both.
 bool strip(std::string_view& text, std::string_view prefix, std::string_view suffix) {
   if (text.size() < prefix.size() + suffix.size()) return false;
   if (text.substr(0, prefix.size()) != prefix || text.substr(text.size() - suffix.size()) != suffix) return false;

@@ -8,14 +8,14 @@
 
 namespace scarp::cli {
 
-/// Sets effort, objective and order in the options, and the whole strategy.
+/// Sets effort, objective and order in `options`, and all of `strategy`.
 Result<void> parse_strategy(const GivenOptions& given, SimplifyOptions& options, Strategy& strategy);
 /// The first option given that selects a strategy of the 1995 paper; empty if none.
 std::string find_strategy(const GivenOptions& given);
 /// True if the greedy order was requested, by name or by one of its algorithms.
 bool asks_for_greedy(const GivenOptions& given);
 
-/// Parses [global*]F with F one of local, local8, curvature, (f+1), sqrt(f+1); or global alone. Ignores blanks.
+/// Parses "global" or [global*]F, where F is local, local8, curvature, (f+1) or sqrt(f+1). Ignores blanks.
 Result<Importance> parse_importance(const std::string& text);
 /// The text that parse_importance() reads as the same importance.
 std::string importance_name(const Importance& importance);

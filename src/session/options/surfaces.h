@@ -1,4 +1,4 @@
-// The two surfaces of `scarp measure --volume`: meshes, or one of them a level.
+// The two surfaces of `scarp measure --volume`: two meshes, or a mesh and a level.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ struct GivenSurface {
   std::string name() const;
 };
 
-/// The surface before and the one after. kUsage for other than two, for two levels, and a level that is no number.
+/// The surface before and the one after. kUsage unless there are two, for two levels, and for a level that is no
+/// number.
 Result<std::array<GivenSurface, 2>> parse_surfaces(const GivenOptions& given);
 
 }  // namespace scarp::cli

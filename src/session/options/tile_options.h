@@ -17,7 +17,7 @@ Result<std::optional<DegreeBox>> parse_box(const GivenOptions& given);
 /// Enclosed voids of at most this many samples a side are filled, unless --nodata-policy differs.
 inline constexpr int kVoidSide = 100;
 
-/// A canonical spelling for each datum of --vertical: equal sets have equal bytes.
+/// A canonical spelling for each datum of --vertical, so that equal sets have equal bytes.
 std::string vertical_word(const std::string& text);
 
 Result<PyramidSettings> parse_tile_settings(const GivenOptions& given);

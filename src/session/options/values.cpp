@@ -10,7 +10,7 @@
 namespace scarp::cli {
 namespace {
 
-/// 50k, 2M, 1e5: a number that may end with the letter of a power of 1000; nothing for other text.
+/// 50k, 2M, 1e5: a number that may end with k, M or another power of 1000; nothing for other text.
 std::optional<double> find_rounded_count(std::string_view text) {
   double factor = 1;
   if (!text.empty()) {

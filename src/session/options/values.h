@@ -20,7 +20,7 @@ using Given = std::optional<std::string>;
 
 /// The whole text as a number, including "inf" and "nan"; nothing for other text.
 std::optional<double> find_number(std::string_view text);
-/// Fails for digits beyond the range of a number, such as 1e999.
+/// Fails for a number out of range, such as 1e999.
 Result<void> check_size(std::string_view option, const std::string& text, const std::optional<double>& value);
 /// A finite number.
 Result<double> parse_number(std::string_view option, const std::string& text);

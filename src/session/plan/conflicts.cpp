@@ -24,8 +24,7 @@ Fields to_fields(std::initializer_list<std::pair<Field, bool>> settings) {
   return fields;
 }
 
-/// The settings in the options, without those in the files. Only its file shows whether a script inserts or ignores
-/// samples.
+/// The settings in the options, without those in files, such as whether a script inserts or ignores samples.
 Fields fields_given(const GivenOptions& given, const SimplifyPlan& plan) {
   const bool is_split = plan.solid && plan.solid->is_split();
   return fields_of(HeightField(), plan.simplify) |
@@ -57,7 +56,7 @@ Fields fields_given(const GivenOptions& given, std::optional<GridKind> grid, std
                     {Field::kTileVertical, given.has(kVertical)}});
 }
 
-/// The option that can have given the setting, if it differs from the table's.
+/// The option that may have set the field, if it differs from the table's.
 std::optional<OptionId> find_option_of(Field field, const GivenOptions& given) {
   if (field == Field::kTolerance || field == Field::kToleranceSource) return find_tolerance(given);
   if (field == Field::kBreaklines) {
@@ -69,7 +68,7 @@ std::optional<OptionId> find_option_of(Field field, const GivenOptions& given) {
   return field == Field::kShape ? find_shape(given) : std::nullopt;
 }
 
-/// The option that gave the setting, or the effect of the raster and defaults.
+/// The option that set the field, or words for the effect of the raster and defaults.
 std::string option_of(Field field, const GivenOptions& given) {
   if (field == Field::kTileLocal && !given.has(kGrid)) return "a local grid";
   if (field == Field::kTileQuantizedMesh && !given.has(kOf)) return fmt::format("{} qm, the default", kOf);
@@ -107,7 +106,7 @@ Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> 
 std::optional<std::string> find_unstreamed(const GivenOptions& given, const SimplifyPlan& plan) {
   Fields fields = fields_given(given, plan) | Fields(Field::kSource);
   if (given.has(kScript)) fields.add(Field::kIgnored);
-  // Tolerances and weights are then read in windows.
+  // Tolerances and weights of such a field are read in windows.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMask) | Fields(Field::kMaskSource);
   for (const Conflict& conflict : find_conflicts(fields)) {

@@ -16,11 +16,11 @@ Result<void> check_conflicts(const GivenOptions& given, const SimplifyPlan& plan
 /// Refuses everything that simplify() would refuse, after the files are read.
 Result<void> check_conflicts(const GivenOptions& given, const HeightField& field, const SimplifyOptions& options);
 
-/// Refuses conflicting settings of tiles. Grid and format are absent if they depend on the raster; then it checks the
-/// rest.
+/// Refuses conflicting settings of tiles. If grid and format depend on the raster, they are absent, and only the rest
+/// is checked.
 Result<void> check_conflicts(const GivenOptions& given, std::optional<GridKind> grid, std::optional<TileFormat> format);
 
-/// The first setting that conflicts with streamed samples, as its options; nothing if none does.
+/// The option of the first setting that conflicts with streamed samples; nothing if none does.
 std::optional<std::string> find_unstreamed(const GivenOptions& given, const SimplifyPlan& plan);
 
 }  // namespace scarp::cli

@@ -50,7 +50,7 @@ std::string identity_of(const std::string& path) {
   return error ? std::string() : full.string();
 }
 
-/// The identity of the file that an output replaces, also behind standard output; empty for devices and pipes.
+/// The identity of the file that an output replaces, also through standard output; empty for devices and pipes.
 std::string identity_of_output(const std::string& path) {
   if (!is_stdout(path)) return names_device(path) ? "" : identity_of(path);
   struct stat status {};
@@ -58,8 +58,8 @@ std::string identity_of_output(const std::string& path) {
   return is_file ? fmt::format("{} {}", status.st_dev, status.st_ino) : "";
 }
 
-/// The reason why no file can be made in an existing folder; empty if one can. Permissions do not show this for root
-/// and in /proc.
+/// The reason why no file can be made in an existing folder; empty if one can. Permissions do not show it for root, or
+/// in /proc.
 std::string find_obstacle(const fs::path& folder) {
   std::string name = (folder / ".scarp-XXXXXX").string();
   const int file = mkstemp(name.data());
@@ -108,13 +108,13 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
     if (is_stdout(output.path)) return !identity_of_output(output.path).empty();
     return overwrite && !names_device(output.path) && fs::exists(output.path, ignored);
   });
-  std::map<std::string, std::string> read;  // with the input that it belongs to
+  std::map<std::string, std::string> read;  // identity to input
   for (const std::string& input : inputs) {
     read.emplace(identity_of(input == "-" ? "/dev/stdin" : input), input);
     if (!may_replace) continue;
     for (const std::string& part : list_files(input)) read.emplace(identity_of(part), input);
   }
-  std::map<std::string, std::string> written;  // with the option that names it
+  std::map<std::string, std::string> written;  // identity to option
   const PlannedOutput* to_stdout = nullptr;
   for (const PlannedOutput& output : outputs) {
     if (is_stdout(output.path)) {

@@ -1,4 +1,4 @@
-// Checks output files before the work: a missing folder must not be found after an hour.
+// Checks output files before the work, so that a missing folder is not found after an hour.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct PlannedOutput {
   std::string path;
 };
 
-/// All checks of output files that are possible before the work: folders exist and are writable, nothing is replaced
-/// without `overwrite`, none is an input or another output.
+/// All checks of output files that are possible before the work: folders exist and are writable, no file is replaced
+/// without `overwrite`, and none is an input or another output.
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite);
-/// Fails for a picture or raster without the ending that its row requires, except devices.
+/// Fails for a picture or raster, unless it is a device, without an ending that its row requires.
 Result<void> check_ending(const OptionRow& row, const PlannedOutput& output);
 
 }  // namespace scarp::cli

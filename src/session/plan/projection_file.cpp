@@ -23,7 +23,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// True for Scarp's outputs that never need a .prj file, even with a CRS.
+/// True for outputs of Scarp that never need a .prj file.
 bool needs_none(const fs::path& name) {
   const auto format = choose_output_format(Given(), name.string());
   return lower_extension(name.string()) == ".json" ||

@@ -14,8 +14,8 @@ struct ProjectionFile {
 };
 
 /// Files for the mesh, or each level, with x and y in `crs`. Empty if none is needed: format or mesh have no CRS, or
-/// the mesh file holds it. Fails with kOutput if it must not replace a file: any file without --overwrite; with it, one
-/// that belongs to other files of that name.
+/// the mesh file holds it. Fails with kOutput for an existing file, unless --overwrite is given and the file belongs to
+/// no other files of that name.
 Result<std::vector<ProjectionFile>> plan_projection_files(const SimplifyPlan& plan, const std::string& crs);
 
 }  // namespace scarp::cli

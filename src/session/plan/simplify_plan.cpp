@@ -72,7 +72,7 @@ Result<void> plan_strategy(const GivenOptions& given, SimplifyPlan& plan) {
 }
 
 Result<void> plan_lines(const GivenOptions& given, SimplifyPlan& plan) {
-  // Water is level if all corners of its triangles are: at samples and on its shore.
+  // Water is level if all corners of its triangles are at samples in it or on its shore.
   if (find_lakes(given)) plan.simplify.quality.vertices = Vertices::kSamples;
   return check_lines(given);
 }
@@ -128,7 +128,7 @@ Result<void> plan_zones(const GivenOptions& given, SimplifyPlan& plan) {
                                              plan.format.title(), list_mesh_endings(holds_zones)));
 }
 
-/// Checks attributes that the format cannot hold: refuses if nothing would remain, else warns.
+/// Checks attributes that the format cannot hold: refuses if none would remain, else warns.
 Result<void> plan_attributes(const GivenOptions& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   const std::string title = format.title();

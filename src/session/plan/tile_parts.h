@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// A process's memory for the raster without --memory: a share of the blocks needs a part of the raster.
+/// A process's default memory for the raster: a share of the blocks needs a part of the raster.
 inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
 
 /// --parts, or else a folder next to the plan: "world.parts" for "world.json".

@@ -15,7 +15,7 @@ namespace {
 
 using enum OptionId;
 
-/// Warns of missing samples in land far from the background's height.
+/// Warns of missing samples within land that is far from the background's height.
 std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidPlan& plan) {
   const VoidCount voids = raster.voids();
   const double background = plan.background, wall = std::max(voids.least - background, background - voids.most);
@@ -34,7 +34,7 @@ void add_plane(const GlobeRaster& raster, LayerFacts& facts) {
   facts.plane = raster.plane()->globe;
 }
 
-/// The format of tiles of a grid, which may be unknown yet. Fails with kUsage for conflicting options.
+/// The format of tiles of a grid, which may still be unknown. Fails with kUsage for conflicting options.
 Result<TileFormat> choose_format(const GivenOptions& given, std::optional<GridKind> grid_of_tiles) {
   SCARP_TRY(const TileFormat kept, parse_tile_format(given, grid_of_tiles));
   const bool is_known = given.has(kOf) || grid_of_tiles;
@@ -60,7 +60,7 @@ Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& 
   SCARP_TRY(ReadOptions options, parse_tile_reading(given));
   SCARP_TRY(const WaterFiles waters, parse_waters(given));
   SCARP_TRY(const std::optional<GridKind> kind, parse_grid(given));
-  // checks the options alone; without --grid the rest depends on the raster
+  // checks only the options; without --grid the rest depends on the raster
   SCARP_RETURN_IF_ERROR(choose_format(given, kind));
   SCARP_TRY(auto image, parse_tile_drape(given));
   OpenedJob opened;

@@ -17,13 +17,13 @@ struct OpenedJob {
   std::vector<std::string> warnings = {};  ///< about lines
 };
 
-/// Opens the job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
+/// Opens the job's rasters. Fails like check_rasters() and GlobeRaster::open().
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
 /// Opens the rasters and plans the settings that the options name. `memory`: bytes for the raster; 0: unlimited. Fails
-/// as the options, GlobeRaster::open() and plan_pyramid() do.
+/// for invalid options, and like GlobeRaster::open() and plan_pyramid().
 Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& progress, std::uint64_t memory = 0);
-/// Opens rasters that follow those of an earlier plan, with its settings. Fails as follow_job() and open_tiles() do.
+/// Opens rasters that follow those of an earlier plan, with its settings. Fails like follow_job() and open_tiles().
 Result<OpenedJob> follow_tiles(const GivenOptions& given, const TileJob& earlier, const ProgressCallback& progress);
 
 }  // namespace scarp::cli

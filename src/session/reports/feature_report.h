@@ -18,9 +18,9 @@ namespace scarp::cli {
 
 /// The "breaklines" object of a report; null without lines.
 Json describe_lines(const GivenOptions& given, const Simplified& simplified);
-/// Line of the summary; empty without lines.
+/// A line of the summary; empty without lines.
 std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits);
-/// Warns of breaklines and rivers that lie farther from the raster than errors can explain: ten times `error`.
+/// Warns of breaklines and rivers that are farther from the raster than ten times `error`.
 void warn_of_far_lines(const Simplified& simplified, double error, std::vector<std::string>& warnings);
 
 /// Warns of lines that are not rivers.
@@ -33,7 +33,7 @@ std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River
 
 /// The "cliffs" object of a report; null without --cliff.
 Json describe_cliffs(const GivenOptions& given, const std::optional<Cliffs>& cliffs);
-/// Line of the summary; empty without --cliff.
+/// A line of the summary; empty without --cliff.
 std::string cliffs_line(const std::optional<Cliffs>& cliffs);
 /// Warns if walls were requested but none was found.
 void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs>& cliffs,
@@ -41,18 +41,18 @@ void warn_of_missing_walls(const GivenOptions& given, const std::optional<Cliffs
 
 /// The "ridges" object of a report; null without --ridges.
 Json describe_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges);
-/// Line of the summary; empty without --ridges.
+/// A line of the summary; empty without --ridges.
 std::string ridges_line(const std::optional<Ridges>& ridges);
 /// Warns if ridges were requested but none was found.
 void warn_of_missing_ridges(const GivenOptions& given, const std::optional<Ridges>& ridges,
                             std::vector<std::string>& warnings);
 
-/// The "cutline" object of a report; null without a cut. `outside`: samples cut off, besides those made nodata.
+/// The "cutline" object of a report; null without a cut. `outside`: samples outside that did not become nodata.
 Json describe_cut(const GivenOptions& given, const Cut& cut, std::uint64_t outside);
 /// "2 polygons, 1,234 samples outside left out".
 std::string cut_words(const Cut& cut, std::uint64_t outside);
 
-/// Adds "materials" and "node_strings" to a report, null if not requested.
+/// Adds "materials" and "node_strings" to a report; null if not requested.
 void add_zones(Json& report, const GivenOptions& given, const MeshZones& zones);
 /// Lines of the summary.
 std::string zones_lines(const GivenOptions& given, const MeshZones& zones);

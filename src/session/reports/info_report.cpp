@@ -48,7 +48,7 @@ struct Box {
   }
 };
 
-/// Ten digits: coordinates of a projected CRS in millimetres.
+/// Ten digits show coordinates of a projected CRS in millimetres.
 std::string range_line(const char* name, const Box& box, std::size_t axis) {
   return fact_line(name, fmt::format("{:.10g} to {:.10g}, {:.6g} in all", box.low[axis], box.high[axis],
                                      box.high[axis] - box.low[axis]));
@@ -97,14 +97,14 @@ Json axes_report(const MeshFile& file) {
               {"offsets_from", has_offsets(file) ? Json(file.mesh.origin) : Json(nullptr)}};
 }
 
-/// "up" is reported for the file; the mesh that was read is always z up.
+/// The metadata with the file's own "up"; the mesh that was read is always z up.
 std::map<std::string, std::string> metadata_of(const MeshFile& file) {
   std::map<std::string, std::string> metadata = file.mesh.metadata;
   metadata.erase("up");
   return metadata;
 }
 
-/// An error in the form of -e: for outputs in metres a plain number is in metres.
+/// An error as a value of -e. For outputs in metres, a plain number is in metres.
 std::string goal_words(double error, const RasterInfo& info) {
   const double metres = info.unit_in_metres;
   if (metres == 1 || metres == 0) return format_number(error);
@@ -174,7 +174,7 @@ Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions
 
 namespace {
 
-/// Points in a square of one unit of x and y, on average over their extent; 0 where that has no area.
+/// Average number of points in a square of one unit of x and y within their extent; 0 for an extent without area.
 double density(const PointSet& points, const Box& box) {
   const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
   return area > 0 ? static_cast<double>(points.size()) / area : 0;

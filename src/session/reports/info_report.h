@@ -23,11 +23,11 @@ struct MeshFile {
 std::string raster_facts(const OwnedHeightField& field);
 /// The table below the facts.
 std::string suggestion_table(const OwnedHeightField& field, const Suggestions& suggestions);
-/// Omits rows if none were requested.
+/// Omits the rows of suggestions if none were requested.
 Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
                    const std::string& command_line);
 
-/// `inputs`: their files.
+/// `inputs`: the files of the points.
 std::string points_facts(const PointSet& points, const std::vector<std::string>& inputs);
 Json points_facts_report(const PointSet& points, const std::string& command_line);
 

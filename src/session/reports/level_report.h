@@ -1,4 +1,4 @@
-// The levels of a run: in the report and in the summary.
+// The levels of a run in the report and the summary.
 #pragma once
 
 #include <string>

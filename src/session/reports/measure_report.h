@@ -28,7 +28,7 @@ struct Judged {
   Judgement judgement;
   std::optional<ErrorGoal> goal;      ///< goal of --fail-above
   std::optional<double> fail_above;   ///< in z units
-  std::optional<std::string> broken;  ///< reason why the mesh fails; nothing if it passes or no bound was given
+  std::optional<std::string> broken;  ///< reason why the mesh fails; nothing if it passes or without a bound
   int band = 1;
   bool is_y_up = false;  ///< --up requests it
   std::vector<std::string> warnings;
@@ -40,12 +40,12 @@ struct Judged {
     channels.attach_to(view);
     return view;
   }
-  /// The largest error of samples with a bound: of heights, or the norm for an image.
+  /// The largest error of samples with a bound: that of heights, or the norm for an image.
   LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };
 
-/// Sets `broken`.
+/// Sets `broken` by the bounds.
 void decide(Judged& judged);
 
 /// The JSON of --json.

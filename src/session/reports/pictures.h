@@ -1,4 +1,4 @@
-// Parts of the program's pictures besides heights and errors: scale, units, titles, lines.
+// Parts of the program's pictures: scale, units, titles, lines.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace scarp::cli {
 
 /// Includes the run's lakes, rivers, breaklines, ridges, walls and cutlines.
 PreviewOptions preview_options(const Outcome& outcome, int max_side);
-/// `unit`: of the errors.
+/// `unit`: unit of the errors.
 ErrorMapOptions error_map_options(const RasterInfo& info, const std::string& unit, const std::string& mesh_path,
                                   int max_side);
 /// "m" for the metre by any name, else the file's unit.

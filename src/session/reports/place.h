@@ -11,7 +11,7 @@
 
 namespace scarp::cli {
 
-/// In the source's own CRS.
+/// A place in the source's own CRS.
 struct Place {
   double x = 0, y = 0;
   std::string crs;                               ///< like RasterInfo::crs

@@ -48,7 +48,7 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
 
-/// x and y of a point in its file; null for none, which is negative.
+/// x and y of a point in its file; null if `point` is negative.
 Json place_of(const PointSet& points, std::int64_t point) {
   if (point < 0) return nullptr;
   return points.place_in_file(static_cast<std::size_t>(point));

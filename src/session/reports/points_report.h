@@ -19,7 +19,7 @@ std::string left_out(const PointSet& points);
 Json describe_las(const LasFacts& las);
 HeightRange height_range(const PointSet& points);
 
-/// Like find_broken_promise(), with a point's place.
+/// find_broken_promise() with a point's place.
 std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound);
 
 /// The result of simplify for points.
@@ -28,13 +28,13 @@ struct PointsOutcome : SimplifyRun {
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   std::vector<PointLake> lakes;
-  std::uint64_t with_tolerance = 0;  ///< points with a smaller bound of their own
+  std::uint64_t with_tolerance = 0;  ///< points with their own, smaller bound
   double lattice_step = 0;
   std::string boundary = "hull";                ///< value of --boundary
   std::optional<BoundaryCut> cut;               ///< by polygons
   std::string suggested_boundary;               ///< empty: none
-  std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, where the mesh has one and the points
-                                                ///< have not
+  std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, if the mesh has one and the points
+                                                ///< have none
   Picture drape;                                ///< empty without a draped image
 
   /// The frame of the mesh's x and y.
@@ -53,7 +53,7 @@ struct JudgedPoints {
   Mesh mesh;
   Measurement measured;
   std::optional<double> fail_above;
-  std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
+  std::optional<std::string> broken;  ///< reason why the mesh fails; nothing if it passes or without a bound
   std::optional<ReadyFile> errors;    ///< with --error-raster
   bool has_tolerances = false;        ///< with --tolerance or --roi
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
@@ -61,7 +61,7 @@ struct JudgedPoints {
   std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }
 };
 
-/// The worst point above its tolerance. REQUIRES: offenders.
+/// The worst point above its tolerance. REQUIRES: there is one.
 std::string describe_over_tolerance(const PointSet& points, const Measurement& measured);
 
 Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line);

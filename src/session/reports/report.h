@@ -14,15 +14,15 @@
 
 namespace scarp::cli {
 
-/// " m", " m (ft in the file)", or nothing: follows a height.
+/// Text after a height: " m", " m (ft in the file)", or nothing.
 std::string heights_unit(const RasterInfo& info);
 /// The "input" object: the raster as it was read.
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
-/// The "frame" object: the meaning of the mesh's x and y, and the way back to the raster's coordinates.
+/// The "frame" object: the meaning of the mesh's x and y, and the map back to the raster's coordinates.
 Json describe_frame(const Frame& frame, const RasterInfo& info, int rows);
 /// Adds the mesh's place in the source's coordinates; null if unknown.
 void add_place(Json& json, const std::optional<PlaceInSource>& place);
-/// "stopped_by": the goal that ended the run, by its option's name.
+/// The value of "stopped_by": the option of the goal that ended the run.
 const char* stop_name(StopReason stop);
 /// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
 std::uint64_t full_grid_triangles(const HeightField& field);
@@ -37,7 +37,7 @@ void add_bounded(Json& report, const LargestError& bounded);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);
-/// Writes the report of a mesh that is already under its final name. If that fails, the error mentions the mesh.
+/// Writes the report of a mesh that is already under its final name. If writing fails, the error mentions the mesh.
 Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh);
 
 }  // namespace scarp::cli

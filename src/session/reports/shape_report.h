@@ -12,9 +12,9 @@ namespace scarp::cli {
 
 /// The "shape" object of a report; null without shape goals.
 Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
-/// Line of the summary; empty without shape goals.
+/// A line of the summary; empty without shape goals.
 std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
-/// Warns of goals that yielded to others, with numbers.
+/// Warns of shapes that miss a goal because other goals have priority, with numbers.
 void warn_of_shapes(const ShapeGoals& goals, const Simplified& simplified, std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

@@ -17,7 +17,7 @@
 
 namespace scarp::cli {
 
-/// All contents of the files, the report and the summary.
+/// The data of all files, the report and the summary.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
   RasterInfo as_read;  ///< before nodata was filled
@@ -45,7 +45,7 @@ struct Outcome : SimplifyRun {
 struct GoalError {
   double value = 0;         ///< without the rounding of samples, for comparison with the bound
   const char* name = "";    ///< "max error", "weighted max error", …
-  bool is_rounded = false;  ///< positions are rounded to float32, by which the error may exceed the bound
+  bool is_rounded = false;  ///< positions are rounded to float32, and the error may exceed the bound by that
 };
 GoalError find_goal_error(const Outcome& outcome);
 

@@ -48,7 +48,7 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
   if (outcome.psnr) report["psnr"] = finite_or_word(*outcome.psnr);
 }
 
-/// ", ignored samples left out": samples without a bound, whose errors count nevertheless.
+/// ", ignored samples left out", or "": words for samples without a bound.
 const char* describe_exceptions(const Outcome& outcome) {
   return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
 }
@@ -116,7 +116,7 @@ std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
   return describe_end(plan, outcome, is_exact ? "Reproduced every sample" : nullptr);
 }
 
-/// The reason for fast effort, if it was not asked for; empty: another effort was used.
+/// The reason for fast effort if it was not requested; empty for other efforts.
 std::string explain_effort(const SimplifyPlan& plan, const Simplified& simplified) {
   switch (simplified.why_fast) {
     case WhyFast::kNone:
@@ -138,7 +138,7 @@ std::string describe_effort(const SimplifyPlan& plan, const Simplified& simplifi
   return fmt::format("{}{}", effort_name(simplified.effort), why.empty() ? "" : " (" + why + ")");
 }
 
-/// Empty unless outlines need most of the mesh.
+/// A line of the summary; empty unless outlines need most of the mesh.
 std::string outline_line(const SimplifyPlan& plan, const Outcome& outcome) {
   constexpr std::uint64_t kFew = 100;
   const std::uint64_t least = outcome.simplified.outline_triangles;
@@ -169,7 +169,7 @@ namespace {
 
 using enum OptionId;
 
-/// STL holds offsets from an origin in its header that only Scarp reads.
+/// Words on STL, which holds offsets from an origin that only Scarp reads.
 std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   const std::array<double, 3>& o = mesh.origin;
   if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0))
@@ -177,7 +177,7 @@ std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   return fmt::format("; the file holds offsets from {:.10g}, {:.10g}", o[0], o[1]);
 }
 
-/// A raster lies where its input lies, whatever the frame of the mesh; a PGM has no place.
+/// The frame of the mesh; that of the input if OUTPUT is a raster. A PGM has no place.
 Frame frame_of_output(const SimplifyPlan& plan, const Outcome& outcome) {
   const RasterInfo& info = outcome.field.info;
   if (plan.format.kind != OutputKind::kDem) return outcome.field.frame;
@@ -191,7 +191,7 @@ Frame frame_of_output(const SimplifyPlan& plan, const Outcome& outcome) {
   return frame;
 }
 
-/// Makes the numbers hold for those in the file.
+/// Makes the frame valid for the numbers in the file.
 void add_offset(const SimplifyPlan& plan, const Mesh& mesh, Json& frame) {
   const std::string words = offset_words(plan, mesh);
   if (words.empty()) return;

@@ -10,7 +10,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The passes of simplify() in the order in which they ended, between reading and writing.
+/// Reading, the passes of simplify() in the order in which they ended, and writing.
 std::vector<Pass> list_passes(const SimplifyRun& run) {
   std::vector<Pass> passes{{"read", run.seconds_read}};
   passes.insert(passes.end(), run.simplified.passes.begin(), run.simplified.passes.end());

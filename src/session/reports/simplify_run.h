@@ -37,12 +37,12 @@ struct SimplifyRun {
   std::optional<double> asked;  ///< max error in z units
   Simplified simplified;
   std::uint64_t vertices = 0, triangles = 0;              ///< size of the terrain
-  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with a base
+  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< size with a base
   std::vector<Level> coarser;                             ///< with --lods
   std::optional<Print> print;                             ///< with --solid
   std::vector<ProjectionFile> projections;                ///< next to OUTPUT or each level
   std::vector<std::string> warnings;
-  bool was_ended = false;  ///< a caller who was waiting cut the run short
+  bool was_ended = false;  ///< by a waiting caller, before its end
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
 
@@ -63,8 +63,8 @@ std::string seconds_line(const SimplifyRun& run);
 /// The lines of --timing: a table of passes, from reading to writing.
 std::string timing_lines(const SimplifyRun& run);
 
-/// The request, to follow the reached error: " (asked 0.5)", " (asked 0.5, not reached)"; "" without one. `exceptions`:
-/// samples for which it does not hold.
+/// Text after the reached error: " (asked 0.5)", " (asked 0.5, not reached)", or "" without a request. `exceptions`:
+/// samples for which the request does not hold.
 std::string describe_asked(const SimplifyRun& run, const char* exceptions = "");
 /// The last line of the summary: the goal that ended the run. `exact`: text for a mesh without loss; null if there was
 /// loss.

@@ -17,7 +17,7 @@ std::string size_text(const SolidFacts& facts, const PrintOptions& plan) {
                      plan.size ? " mm" : "");
 }
 
-/// In print units.
+/// The relief in print units.
 double relief_of(const Print& print) { return (print.heights.max - print.heights.min) * print.placement.scale[2]; }
 
 /// The advice for a print that is nearly flat.

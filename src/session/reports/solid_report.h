@@ -1,4 +1,4 @@
-// The print of a terrain in report and summary.
+// The print of a terrain in the report and the summary.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ namespace scarp::cli {
 void add_tile_check(Json& report, const TileCheck& check);
 /// A table of the levels, followed by faults and counts.
 std::string make_check_summary(const std::string& set, const TileCheck& check, double seconds);
-/// One sentence for a set with faults: how many of each kind, and the first.
+/// One sentence for a set with faults: the number of each kind, and the first fault.
 std::string describe_faults(const std::string& set, const TileCheck& check);
 
 }  // namespace scarp::cli

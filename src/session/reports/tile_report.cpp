@@ -218,7 +218,7 @@ std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   const std::string kept =
       fmt::format("level {} has {} at nodes and {} at samples where {} were asked", z, format_metres(level.node_error),
                   format_metres(level.source_error), format_metres(asked));
-  // Closer nodes help samples between them; a cliff stays too steep for positions.
+  // Closer nodes reduce errors of samples between them, but not at a cliff that is too steep for the positions.
   if (level.node_error <= asked)
     return kept + ". Nodes are too far apart for such samples: give a larger --zoom or --max-error";
   return fmt::format("{}. At nodes that is {}: give a larger --max-error", kept, kCliffs);

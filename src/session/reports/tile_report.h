@@ -20,11 +20,11 @@ std::string waters_line(const TileJob& job);
 /// A table of the levels, with input and output above and the time below.
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
                               double seconds);
-/// Warnings about a raster, except those about frames, which tiles lack.
+/// Warnings about a raster, except those about a mesh's frame.
 std::vector<std::string> warnings_of_raster(const GlobeRaster& raster);
 /// The expected cost, the actual cost and their ratio; null without an expectation.
 Json compare_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost);
-/// The same as a line of the summary; empty without an expectation.
+/// Like compare_model(), as a line of the summary; empty without an expectation.
 std::string summarize_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost);
 /// Warnings about levels whose tiles exceed the max error.
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report);

@@ -1,4 +1,4 @@
-// Checks whether a measured mesh keeps a bound.
+// Checks that a measured mesh satisfies a bound.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,12 @@
 
 namespace scarp::cli {
 
-/// ", and values rounded to float32 by up to R,": the rounding that a max error excludes; empty if samples equal
-/// values.
+/// ", and values rounded to float32 by up to R,": the rounding that a max error excludes; empty if samples are exact.
 std::string describe_rounding(double sample_rounding);
 
-/// Explains why the mesh does not keep `bound`: the largest error and its place, the number and first of uncovered
-/// samples, or a topological fault. The bound applies to the values in the file, up to `sample_rounding` away from the
-/// judged float32 samples. Nothing if the mesh keeps it.
+/// Explains why the mesh does not satisfy `bound`: the largest error and its place, the number of uncovered samples and
+/// the first one, or a topological fault. The bound applies to the values in the file, up to `sample_rounding` away
+/// from the judged float32 samples. Nothing if the mesh satisfies it.
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
                                                const HeightRange& heights);
 

@@ -19,7 +19,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Above this a page opens too slowly.
+/// Most samples: with more, a page opens too slowly.
 constexpr std::uint64_t kMostSamples = 1 << 24;
 constexpr std::int16_t kVoid = std::numeric_limits<std::int16_t>::min();
 
@@ -49,7 +49,7 @@ Result<std::vector<float>> copy_samples(const HeightField& field) {
   return samples;
 }
 
-/// Uses 16-bit integers if all samples are.
+/// Writes 16-bit integers if all samples fit.
 void add_samples(const std::vector<float>& samples, Json& json) {
   const bool are_whole = std::ranges::all_of(
       samples, [](float z) { return std::isnan(z) || (std::abs(z) <= 32767 && z == std::trunc(z)); });

@@ -1,4 +1,4 @@
-// The viewer's page: one HTML file with meshes and the raster that judges them.
+// The viewer's page: one HTML file with meshes and their raster.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct PageMesh {
 
 struct ViewPage {
   std::vector<std::uint8_t> html;
-  /// Reason why the page lacks the raster; nothing if it has it or none was given.
+  /// Reason why the page lacks the raster; nothing if it has the raster or none was given.
   std::optional<std::string> left_out;
 };
 

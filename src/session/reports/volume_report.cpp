@@ -13,7 +13,7 @@ namespace {
 
 std::string volume_line(const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); }
 
-/// 12,345,678, or as format_number() if it is small.
+/// "12,345,678", or format_number() for a small value.
 std::string format_amount(double value) {
   constexpr double kLarge = 1e4, kTooLarge = 1e18;
   if (!(std::abs(value) >= kLarge) || std::abs(value) >= kTooLarge) return format_number(value);
@@ -29,7 +29,7 @@ Json describe_surface(const Surface& surface, double outside) {
               {"metadata", surface.mesh.metadata}};
 }
 
-/// The errors from which the uncertainty is made.
+/// The max errors that add up to the uncertainty.
 std::string describe_errors(const ComparedSurfaces& compared) {
   std::string known, unknown;
   for (const Surface& surface : compared.surfaces) {

@@ -13,13 +13,13 @@
 namespace scarp::cli {
 
 struct ComparedSurfaces {
-  std::array<Surface, 2> surfaces;  ///< the one before, and the one after; in one frame
+  std::array<Surface, 2> surfaces;  ///< before and after, in one frame
   SurfaceUnits units;
   Volumes volumes;
   double seconds_read = 0, seconds_measure = 0;
   std::vector<std::string> warnings;
 
-  /// Each volume is known to that: the sum of the max errors times the common area. Nothing if one is not known.
+  /// Bound of each volume's error: the sum of the max errors times the common area. Nothing if a max error is unknown.
   std::optional<double> uncertainty() const;
 };
 

@@ -19,7 +19,7 @@ constexpr CommandRow kCommandRows[] = {
      "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kClassic, "classic", "Simplify by the strategies of the 1995 paper", "INPUT OUTPUT [OPTIONS]",
-     "All options of simplify apply. The error bound is proven as there.\n"
+     "All options of simplify apply. The error bound is proven in the same way.\n"
      "Examples:\n"
      "  scarp classic dem.tif hills.glb -e 1 --order greedy           the paper's algorithm III\n"
      "  scarp classic dem.tif hills.glb -t 5k --edges data            data-dependent triangulation\n"
@@ -37,13 +37,13 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "  scarp measure before.glb after.glb --volume          cut and fill, from before to after\n"
-     "  scarp measure pit.glb level=512.5 --volume           what lies above that level, and below\n"
+     "  scarp measure pit.glb level=512.5 --volume           volumes above and below that level\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kView, "view", "Write a page that shows a mesh and its errors in a browser", "MESH [RASTER] [OPTIONS]",
      "One HTML file that opens from disk and needs no network: hillshade, wireframe, error map, profile.\n"
      "Examples:\n"
      "  scarp view hills.glb dem.tif                         hills.html\n"
-     "  scarp view hills.glb dem.tif -o page.html --open     and opens it\n"
+     "  scarp view hills.glb dem.tif -o page.html --open     also opens the page\n"
      "  scarp view hills_lod0.glb dem.tif                    all levels of --lods\n"
      "  scarp view globe.pmtiles                             the finest levels of a set of tiles\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 70 internal error.\n"},
@@ -61,36 +61,37 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile dem.tif globe --of 3dtiles                3D Tiles: tileset.json, subtrees, GLB files\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTilePlan, "tile-plan", "Plan tiles that many processes make, on one machine or a cluster", "INPUT PLAN [OPTIONS]",
-     "Also: scarp tile plan. Makes a few tiles to estimate the cost of all.\n"
+     "Also spelled scarp tile plan. It makes a few tiles to estimate the cost of all.\n"
      "Examples:\n"
      "  scarp tile plan dem.tif world.json --vertical egm96\n"
      "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
      "  scarp tile plan dem.tif new.json --changed-since world.json    only changed blocks\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
-     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block\n"
-     "is saved at once, so a killed run resumes where it stopped.\n"
+     "Also spelled scarp tile run. Any process may make any share; the tiles are the same. Each finished\n"
+     "block is saved at once, so a killed run resumes where it stopped.\n"
      "Examples:\n"
      "  scarp tile run world.json                     all blocks that are missing\n"
      "  scarp tile run world.json --shard 3/200 -j 1\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileFinish, "tile-finish", "Join the parts of a plan into a set of tiles", "PLAN OUTPUT [OPTIONS]",
-     "Also: scarp tile finish. Makes the levels above the blocks. The set is that of scarp tile, byte for\n"
-     "byte.\n"
+     "Also spelled scarp tile finish. It makes the levels above the blocks. The set is the same as that of\n"
+     "scarp tile, byte for byte.\n"
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileCheck, "tile-check", "Check a finished set of tiles: borders, bounds, coverage, headers, availability",
      "SET [OPTIONS]",
-     "Also: scarp tile check. SET is a folder, .pmtiles, .mbtiles or .3tz, of Scarp or another program.\n"
+     "Also spelled scarp tile check. SET is a folder, .pmtiles, .mbtiles or .3tz, of Scarp or another\n"
+     "program.\n"
      "With --source each tile is compared with all nodes below it; repeat the raster's options as given\n"
      "to scarp tile.\n"
      "Examples:\n"
      "  scarp tile check globe                                     exit code 3 on any fault\n"
-     "  scarp tile check globe --source dem.tif --vertical egm96   bounds, too\n"
+     "  scarp tile check globe --source dem.tif --vertical egm96   checks bounds, too\n"
      "  scarp tile check world.pmtiles --source world.json --json\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kServe, "serve", "Serve tiles over HTTP, from a set or a raster, by default to this machine alone",
+    {kServe, "serve", "Serve tiles over HTTP, from a set or a raster, by default only to this machine",
      "INPUT [OPTIONS]",
      "Tiles have the headers that clients need; a set in one file also supports range requests.\n"
      "Tiles of a raster or a plan are made on request. Ctrl-C ends the server.\n"
@@ -101,8 +102,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp serve world.mbtiles --host 0.0.0.0             to other machines\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
-     "Facts are printed at once. Suggested errors follow; the engine finds them on the whole raster up to\n"
-     "2 million samples, on windows of it beyond that (an estimate).\n"
+     "Facts are printed at once. Suggested errors follow. The engine finds them on the whole raster up to\n"
+     "2 million samples, and estimates them on windows of a larger raster.\n"
      "Examples:\n"
      "  scarp info dem.tif\n"
      "  scarp info huge.tif --no-suggest\n"

@@ -11,7 +11,7 @@
 namespace scarp::cli {
 namespace {
 
-/// The options, if any, else the library's word.
+/// The options of the setting, if any, else the library's word.
 std::vector<std::string> words_of(Field field) {
   using enum OptionId;
   const auto with = [](OptionId id, const char* note) { return fmt::format("{} ({})", id, note); };
@@ -49,7 +49,7 @@ std::vector<std::string> words_of(Field field) {
 }
 
 std::vector<std::string> words_of(Fields fields) {
-  // Differences without an option.
+  // These variants have no option.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::vector<std::string> words;

@@ -5,8 +5,8 @@
 
 namespace scarp::cli {
 
-/// A list of rows: `setting`, `with`, `beside` (also set, or empty), `because`, and `tiles`, true for settings of
-/// tiles.
+/// A list of rows: `setting`, `with`, `beside` (another setting, or empty), `because`, and `tiles`, true for settings
+/// of tiles.
 nlohmann::ordered_json describe_conflicts();
 
 }  // namespace scarp::cli

@@ -8,8 +8,7 @@
 
 namespace scarp::cli {
 
-/// In the order of Field; kNone if no option gives the setting: the format decides about positions, and Ctrl-C ends a
-/// run.
+/// In the order of Field. kNone if no option sets the field: the format determines positions, and Ctrl-C ends a run.
 inline constexpr OptionTerm kFieldOptions[] = {
     {OptionId::kMaxError},
     {OptionId::kMaxTriangles},

@@ -13,9 +13,9 @@ namespace scarp::cli {
 /// Selects the formats of a list.
 using OfFormat = bool (*)(const MeshFormatTraits&);
 
-/// ".glb, .obj and .ply": the usual endings of the selected formats; `last` precedes the last one.
+/// ".glb, .obj and .ply": the usual endings of the selected formats; `last` precedes the last ending.
 std::string list_mesh_endings(OfFormat is_so, std::string_view last = "or");
-/// The endings of the format's files, with the dot, the usual one first.
+/// The endings of the format's files, with the dot; the usual ending is first.
 std::vector<std::string> list_endings(const MeshFormatTraits& traits);
 /// "GLB, OBJ or PLY": the readable mesh formats.
 std::string list_readable_meshes();
@@ -29,7 +29,7 @@ const char* output_formats();
 const char* output_endings();
 /// All endings of readable meshes.
 const char* mesh_endings();
-/// Keeps the text for the row of an option.
+/// Stores the text for the row of an option.
 const char* keep(std::string text);
 
 }  // namespace scarp::cli

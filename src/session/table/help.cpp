@@ -37,7 +37,7 @@ std::string wrap(const std::string& text) {
   return wrapped + "\n";
 }
 
-/// `left` with the text to the right, or below if `left` is wide.
+/// `left`, and the text to its right, or below it if `left` is wide.
 std::string entry(const std::string& left, const std::string& text) {
   const bool is_wide = left.size() + 2 > kColumn;
   return left + (is_wide ? "\n" : "") + std::string(is_wide ? kColumn : kColumn - left.size(), ' ') + wrap(text);
@@ -79,7 +79,7 @@ std::string list_options(const std::vector<const OptionRow*>& rows) {
   return text;
 }
 
-/// The spellings of 0.1, which are accepted until 0.4.
+/// The spellings of version 0.1, which are accepted until 0.4.
 std::string list_old_spellings(const CommandRow& command) {
   std::string text;
   if (command.command == kClassic) return "";
@@ -189,9 +189,9 @@ std::string program_help() {
          "  -h, --help  Print this help\n"
          "  --version   Print the version\n"
          "\nTry:\n"
-         "  scarp info dem.tif                                what is in it, and which errors suit it\n"
+         "  scarp info dem.tif                                its contents, and errors that suit it\n"
          "  scarp simplify dem.tif hills.glb -e 1             a mesh within 1 m of every sample\n"
-         "  scarp measure dem.tif hills.glb --fail-above 1    check it independently\n"
+         "  scarp measure dem.tif hills.glb --fail-above 1    check the mesh independently\n"
          "'scarp help COMMAND' explains a command, 'scarp COMMAND --help-all' lists all of its options.\n";
 }
 

@@ -14,7 +14,7 @@ const CLI::Option* find_option(const CLI::App& command, const std::string& word)
   return word.rfind('-', 0) == 0 ? command.get_option_no_throw(word) : nullptr;
 }
 
-/// True for a command's options and for words that begin like a long option; -5 is a value.
+/// True for a command's options and for words that begin like a long option, but not for a value such as -5.
 bool reads_as_option(const CLI::App& command, const std::string& word) {
   const bool is_long = word.size() > 2 && word.rfind("--", 0) == 0 && std::isalpha(static_cast<unsigned char>(word[2]));
   return is_long || find_option(command, word) != nullptr;

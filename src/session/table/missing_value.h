@@ -1,4 +1,4 @@
-// Finds the command in argv, and an option without its value before another option.
+// Finds the command in argv, and an option that is followed by another option instead of its value.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace scarp::cli {
 /// The command with that name; nullptr if none.
 const CLI::App* find_command(const CLI::App& program, std::string_view name);
 
-/// Complains about the first option-like word in place of a value, as in "--report --overwrite", which CLI11 would read
-/// as a value. Such a value needs "=": "--report=--overwrite". Nothing if there is none. Checks the options of the
+/// Reports the first option-like word instead of a value, as in "--report --overwrite", which CLI11 would read as a
+/// value. Such a value needs "=": "--report=--overwrite". Nothing if there is no such word. Checks the options of the
 /// command in argv.
 std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv);
 

@@ -24,9 +24,9 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several "
-             "become one set.",
+     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; - is standard input. Several rasters, or "
+             "a folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several "
+             "files become one set.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",
@@ -43,8 +43,8 @@ const OptionRow kFileRows[] = {
      .type = kOutputFile,
      .choices = output_endings(),
      .is_required = true,
-     .help = keep(fmt::format("Mesh to write: {}. .svg and .eps hold its edges, .tif and .pgm the approximation. - "
-                              "with --of: standard output.",
+     .help = keep(fmt::format("Mesh to write: {}. .svg and .eps hold its edges, .tif and .pgm the approximation. With "
+                              "--of, - is standard output.",
                               list_mesh_endings([](const MeshFormatTraits&) { return true; }))),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .gpkg .3mf .svg .tif ..."},
     {.id = kRaster,
@@ -54,9 +54,9 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights: a file or URL that GDAL opens, PGM or STM; - for standard input. Several, or a "
-             "folder, form one mosaic. With --image, any image. Scattered points by name or with --points. "
-             "With --volume, a mesh or level=H.",
+     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; - is standard input. Several rasters, or "
+             "a folder, form one mosaic. With --image, any image. Scattered points by name or with --points. With "
+             "--volume, a mesh or level=H.",
      .brief = "Raster of heights, or points, that the mesh was made from"},
     {.id = kRaster,
      .name = "FILE",
@@ -65,8 +65,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help =
-         "Raster of heights, or several, as for simplify; scattered points; or a mesh (.glb, .obj, .ply, .stl ...).",
+     .help = "One or several rasters of heights, as for simplify; scattered points; or a mesh (.glb, .obj, .ply, .stl "
+             "...).",
      .brief = "Raster of heights, scattered points, or a mesh"},
     {.id = kMesh,
      .name = "MESH",
@@ -75,7 +75,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = mesh_endings(),
      .is_required = true,
-     .help = keep(fmt::format("Mesh to judge: {}, recognised by content; or level=H.", list_readable_meshes())),
+     .help = keep(
+         fmt::format("Mesh to judge, recognised by content: {}. With --volume, also level=H.", list_readable_meshes())),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kMesh,
      .name = "MESH",
@@ -84,8 +85,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = mesh_endings(),
      .is_required = true,
-     .help = "Mesh to show, in any format that measure reads, or a set of tiles. OUT_lod0.glb also shows the other "
-             "levels of --lods.",
+     .help = "Mesh to show, in any format that measure reads, or a set of tiles. For OUT_lod0.glb the page also shows "
+             "the other levels of --lods.",
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kRaster,
      .name = "RASTER",
@@ -93,7 +94,7 @@ const OptionRow kFileRows[] = {
      .group = OptionGroup::kArguments,
      .type = kInputFile,
      .is_repeatable = true,
-     .help = "Raster of the mesh's heights, as for measure. With it the page also shows the errors and can refine.",
+     .help = "Raster of the mesh's heights, as for measure. The page then also shows errors and can refine the mesh.",
      .brief = "Raster of the mesh's heights"},
     {.id = kStyle,
      .name = "STYLE",
@@ -139,8 +140,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Several may differ in CRS and "
-             "resolution; at each place the first height counts."},
+     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Several rasters may differ in "
+             "CRS and resolution; at each place, the first raster with a height counts."},
     {.id = kOutput,
      .name = "OUTPUT",
      .commands = kTile | kTileFinish,
@@ -155,8 +156,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Set of tiles: a folder, .pmtiles, .mbtiles or .3tz. Or their source: a raster, several (at each place "
-             "the first height counts), or a plan of scarp tile plan (.json)."},
+     .help = "Set of tiles: a folder, .pmtiles, .mbtiles or .3tz. Or the tiles' source: one or several rasters (at "
+             "each place, the first with a height counts), or a plan of scarp tile plan (.json)."},
     {.id = kCommand,
      .name = "COMMAND",
      .commands = kHelpCommand,
@@ -164,7 +165,7 @@ const OptionRow kFileRows[] = {
      .type = kChoice,
      .choices = "simplify classic measure view tile tile-plan tile-run tile-finish tile-check serve info generate help "
                 "version",
-     .help = "The command to explain. Without it, the commands are listed."},
+     .help = "Command to explain. Without COMMAND, all commands are listed."},
 
     {.id = kBand,
      .name = "--band",
@@ -185,8 +186,8 @@ const OptionRow kFileRows[] = {
      .value = "XMIN YMIN XMAX YMAX",
      .unit = "units of the raster's CRS",
      .is_for_points = true,
-     .help = "Read only the cells that overlap this rectangle, in the coordinates of the raster's CRS. Of points those "
-             "inside."},
+     .help = "Read only the cells that overlap this rectangle, or the points inside. Its coordinates are in the "
+             "raster's CRS."},
     {.id = kResolution,
      .name = "--resolution",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,
@@ -195,7 +196,7 @@ const OptionRow kFileRows[] = {
      .value = "R",
      .unit = "units of the raster's CRS",
      .above = 0,
-     .help = "Read means of k x k cells, for the largest k with cells at most R wide. Errors refer to these means."},
+     .help = "Read means of k x k cells, for the largest k with blocks at most R wide. Errors refer to these means."},
     {.id = kDecode,
      .name = "--decode",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,
@@ -203,7 +204,7 @@ const OptionRow kFileRows[] = {
      .type = kChoice,
      .value = "SCHEME",
      .choices = "terrarium mapbox",
-     .help = "Heights packed into red, green and blue. terrarium: R*256+G+B/256-32768 metres. mapbox: "
+     .help = "Encoding of heights in red, green and blue. terrarium: R*256+G+B/256-32768 metres. mapbox: "
              "(R*65536+G*256+B)/10-10000 metres."},
     {.id = kZScale,
      .name = "--z-scale",
@@ -214,8 +215,8 @@ const OptionRow kFileRows[] = {
      .by_default = "1",
      .range = "not 0",
      .is_for_points = true,
-     .help = "Factor for the heights, such as 0.1 for decimetres or -1 for depths. Errors and heights in options "
-             "refer to scaled heights; --nodata is the file's value."},
+     .help = "Factor for the heights, such as 0.1 for decimetres or -1 for depths. Other options use the scaled unit "
+             "for errors and heights; --nodata is the value in the file."},
     {.id = kZScale,
      .name = "--z-scale",
      .commands = kMeasure | kView,
@@ -225,7 +226,7 @@ const OptionRow kFileRows[] = {
      .by_default = "from the mesh file, else 1",
      .range = "not 0",
      .is_for_points = true,
-     .help = "Multiply the heights, as simplify did. Errors are in the scaled unit."},
+     .help = "Multiply the heights by F, as simplify did. Errors are in the scaled unit."},
     {.id = kZOffset,
      .name = "--z-offset",
      .part_of = kZScale,
@@ -236,7 +237,7 @@ const OptionRow kFileRows[] = {
      .value = "D",
      .by_default = "0",
      .is_for_points = true,
-     .help = "Add this to the heights, after they are multiplied."},
+     .help = "Add D to the heights after they are multiplied by --z-scale."},
     {.id = kZOffset,
      .name = "--z-offset",
      .part_of = kZScale,
@@ -247,7 +248,7 @@ const OptionRow kFileRows[] = {
      .value = "D",
      .by_default = "from the mesh file, else 0",
      .is_for_points = true,
-     .help = "Add this to the heights, after they are multiplied."},
+     .help = "Add D to the heights after they are multiplied by --z-scale."},
     {.id = kZUnit,
      .name = "--z-unit",
      .commands = kSimplify | kInfo | kTile | kTilePlan | kTileCheck | kServe,
@@ -256,8 +257,8 @@ const OptionRow kFileRows[] = {
      .value = "UNIT",
      .by_default = "the raster's, else that of x and y, else m",
      .is_for_points = true,
-     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi. Metric outputs "
-             "are converted."},
+     .help = "Unit of the heights, after --z-scale: m, ft, us-ft, cm, mm, dm, km, in, yd, fathom, mi. Outputs in "
+             "metres are converted."},
     {.id = kZUnit,
      .name = "--z-unit",
      .commands = kMeasure | kView,
@@ -276,8 +277,8 @@ const OptionRow kFileRows[] = {
      .by_default = "1",
      .above = 0,
      .is_for_points = true,
-     .help = "Cell width of a raster without georeference, such as a heightmap for a game; with a georeference only "
-             "together with --crs grid. For points: cell width of a raster as OUTPUT."},
+     .help = "Cell width of a raster without georeference, such as a heightmap for a game; for other rasters, only "
+             "with --crs grid. For points: cell width of OUTPUT if it is a raster."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kTile | kTilePlan | kTileCheck,
@@ -330,8 +331,8 @@ const OptionRow kFileRows[] = {
                                     list_frame<DefaultFrame::kLocal>(), list_frame<DefaultFrame::kSource>())),
      .is_for_points = true,
      .help = "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
-             "columns and rows. Or any CRS, such as EPSG:32611, which is slower to judge. EPSG:4978: earth-centred. "
-             "enu: metres east, north and up of the centre, on the curved earth.",
+             "columns and rows. enu: metres east, north and up from the centre, on the curved earth. Or any CRS, such "
+             "as EPSG:32611, which is slower to judge. EPSG:4978 is earth-centred.",
      .brief = "Coordinates: source, local, grid or a CRS such as EPSG:32611"},
     {.id = kUp,
      .name = "--up",
@@ -368,7 +369,7 @@ const OptionRow kFileRows[] = {
      .by_default = "by OUTPUT's extension",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps hold the edges, dem the approximation as raster.",
+     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps hold the edges, dem the approximation as a raster.",
                               list_output_formats()))},
     {.id = kOf,
      .name = "--of",
@@ -391,7 +392,7 @@ const OptionRow kFileRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kOutput,
      .type = kFlag,
-     .help = "Write texture coordinates of the raster's image. Always on with --texture and --image."},
+     .help = "Write texture coordinates for the raster's image. --texture and --image always write them."},
     {.id = kNoSuggest,
      .name = "--no-suggest",
      .commands = kInfo,
@@ -406,7 +407,7 @@ const OptionRow kFileRows[] = {
      .type = kFlag,
      .is_for_points = true,
      .help = "Compress the GLB to between a fifth and a third of its size. The error is proven on the decoded "
-             "positions. Readers must know EXT_meshopt_compression and KHR_mesh_quantization, as three.js does."},
+             "positions. Readers must support EXT_meshopt_compression and KHR_mesh_quantization, as three.js does."},
     {.id = kDrape,
      .name = "--drape",
      .commands = kSimplify,
@@ -414,7 +415,7 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .value = "IMAGE",
      .is_for_points = true,
-     .help = "Drape an image over the terrain, inside the GLB: any 8-bit raster, warped from its own CRS."},
+     .help = "Drape an image over the terrain and store it in the GLB: any 8-bit raster, warped from its own CRS."},
     {.id = kDrapeSize,
      .name = "--drape-size",
      .part_of = kDrape,
@@ -453,8 +454,8 @@ const OptionRow kFileRows[] = {
      .most = 16384,
      .limit_why = "graphics cards show no more pixels",
      .range = "1 to 16384, at most one pixel a sample",
-     .help = "Store the normals of the full-resolution raster in the GLB as an image, N pixels on its longer side: "
-             "coarse meshes are shaded like fine ones."},
+     .help = "Store the normals of the full-resolution raster in the GLB as an image with N pixels on its longer side. "
+             "Coarse meshes are then shaded like fine ones."},
     {.id = kJson,
      .name = "--json",
      .commands = kMeasure | kInfo | kTileCheck,
@@ -484,7 +485,7 @@ const OptionRow kFileRows[] = {
      .choices = ".png",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = "Also draw the mesh, and the lakes and lines of this run, over a hillshade.",
+     .help = "Also draw the mesh, lakes and lines over a hillshade.",
      .brief = "Draw the mesh over a hillshade"},
     {.id = kRender,
      .name = "--render",
@@ -513,10 +514,9 @@ const OptionRow kFileRows[] = {
      .choices = ".tif .tiff .csv",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help =
-         "Also write the errors, mesh minus sample, as GeoTIFF. With --image: their norm over the bands. For points: "
-         "FILE.csv with x, y, z and error of each.",
-     .brief = "Write the errors as GeoTIFF, or of points as CSV"},
+     .help = "Also write the errors, mesh minus sample, as GeoTIFF. With --image: the norm of the bands' errors. For "
+             "points: FILE.csv with x, y, z and error of each point.",
+     .brief = "Write the errors as GeoTIFF, or as CSV for points"},
     {.id = kHtml,
      .name = "--html",
      .commands = kSimplify,
@@ -537,7 +537,7 @@ const OptionRow kFileRows[] = {
      .choices = ".geojson .json",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = "Also write the contour lines of the mesh as GeoJSON, in its coordinates. They match the raster to "
+     .help = "Also write the contour lines of the mesh as GeoJSON, in the mesh's coordinates. They match the raster to "
              "within the max error."},
     {.id = kContourInterval,
      .name = "--contour-interval",

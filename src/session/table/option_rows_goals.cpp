@@ -18,9 +18,9 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "units of the heights, % of the relief, or m, cm, ft, mm",
      .least = 0,
      .is_for_points = true,
-     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, P% "
-             "(0.5%) is a share of the relief. 1m, 50cm and 3ft name the unit; 0.1mm is measured on the print of "
-             "--solid size=. 0 reproduces every sample.",
+     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights; P%, "
+             "such as 0.5%, is a share of the relief. 1m, 50cm and 3ft name their unit. 0.1mm is measured on the print "
+             "of --solid size=. 0 reproduces every sample.",
      .brief = "No sample is farther than this from the mesh; 0.5%: of the relief"},
     {.id = kMaxTriangles,
      .name = "--max-triangles",
@@ -32,8 +32,8 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "triangles",
      .least = 1,
      .is_for_points = true,
-     .help = "At most this many triangles. 50k, 2M and 1e5 work.",
-     .brief = "At most this many triangles, such as 50k"},
+     .help = "At most N triangles, such as 50k, 2M or 1e5.",
+     .brief = "At most N triangles, such as 50k"},
     {.id = kMaxPoints,
      .name = "--max-points",
      .short_name = "-p",
@@ -44,8 +44,8 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "vertices",
      .least = 1,
      .is_for_points = true,
-     .help = "At most this many vertices.",
-     .brief = "At most this many vertices"},
+     .help = "At most N vertices.",
+     .brief = "At most N vertices"},
     {.id = kObjective,
      .name = "--objective",
      .commands = kSimplify,
@@ -53,8 +53,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "Quantity to minimise under -t or -p: the max error or the RMSE. With rms, errors stay within -e, or "
-             "within what --effort fast reaches. Needs --effort normal or more."},
+     .help = "Quantity to minimise with -t or -p: the max error or the RMSE. With rms, errors stay within -e, or "
+             "without -e within the max error of --effort fast. Needs --effort normal or more."},
 
     {.id = kFailAbove,
      .name = "--fail-above",
@@ -65,17 +65,17 @@ constexpr OptionRow kGoalRows[] = {
      .unit = "units of the heights, % of the relief, or m, cm, ft",
      .least = 0,
      .is_for_points = true,
-     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and "
-             "P% are as for --max-error of simplify. Errors are in height units, weighted by --mask, combined with "
-             "--texture and --image.",
+     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and P% "
+             "are like M and P% of simplify's --max-error. Errors are in units of the heights. --mask weights them; "
+             "--texture and --image combine several by --norm.",
      .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
     {.id = kVolume,
      .name = "--volume",
      .commands = kMeasure,
      .group = OptionGroup::kVerdict,
      .type = kFlag,
-     .help = "Measure the volumes between two surfaces, the ground before and the ground after: two meshes, or a mesh "
-             "and level=H. Cut is the volume where the second lies below the first, fill where it lies above.",
+     .help = "Measure the volumes between two surfaces, the ground before and after: two meshes, or a mesh and "
+             "level=H. Cut is the volume where the second surface is below the first; fill is that where it is above.",
      .brief = "Cut and fill from the first mesh to the second, or to level=H"},
 
     {.id = kEffort,
@@ -87,9 +87,9 @@ constexpr OptionRow kGoalRows[] = {
      .choices = "fast normal high max",
      .by_default = "normal; fast with the 1995 paper's strategies, or too little --memory",
      .is_for_points = true,
-     .help = "Work to spend on fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
-             "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
-             "9.6 and 50 times that of the 1995 paper's algorithm. With -t or -p: a smaller error instead.",
+     .help = "Work to spend on fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the triangles "
+             "of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, 9.6 and 50 "
+             "times that of the 1995 paper's algorithm. With -t or -p, the work reduces the error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kMinShape,
      .name = "--min-shape",
@@ -114,8 +114,8 @@ constexpr OptionRow kGoalRows[] = {
      .choices = "free samples",
      .by_default = "free where possible",
      .is_for_points = true,
-     .help = "Positions of vertices for high and max. free: between samples too. samples: only on them; with high "
-             "0.41 of the triangles of fast."},
+     .help = "Positions of vertices with --effort high and max. free: also between samples. samples: only at samples; "
+             "with high 0.41 of the triangles of fast."},
     {.id = kTimeLimit,
      .name = "--time-limit",
      .part_of = kEffort,
@@ -128,7 +128,7 @@ constexpr OptionRow kGoalRows[] = {
      .least = 0,
      .is_for_points = true,
      .help = "Stop improving after SECONDS and write the best mesh so far. The bound holds, but the mesh depends on "
-             "timing. max uses all the time."},
+             "timing. --effort max uses all the time."},
 
     {.id = kLods,
      .name = "--lods",
@@ -138,8 +138,8 @@ constexpr OptionRow kGoalRows[] = {
      .value = "N[:RATIO]",
      .unit = "levels",
      .is_for_points = true,
-     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error starts at -e and "
-             "is RATIO (default 2) times larger at each next level. All levels have the outline of --lock-border."},
+     .help = "Write N levels of detail, as files OUT_lod0.glb, OUT_lod1.glb and so on. The max error is -e at level 0 "
+             "and grows by the factor RATIO (default 2) per level. All levels have the outline of --lock-border."},
     {.id = kLodsInOne,
      .name = "--lods-in-one",
      .part_of = kLods,
@@ -155,8 +155,8 @@ constexpr OptionRow kGoalRows[] = {
      .commands = kSimplify,
      .group = OptionGroup::kLevels,
      .type = kFlag,
-     .help = "Choose vertices on the raster's edge by the edge's samples alone. Separately simplified rasters that "
-             "share a row or column of samples then meet exactly, at the same -e."},
+     .help = "Choose vertices on the raster's edge only by the edge's samples. Rasters that share a row or column of "
+             "samples then meet exactly, if they are simplified with the same -e."},
 };
 
 }  // namespace

@@ -23,8 +23,8 @@ const OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Lines and polygon rings of a vector file become edges of the mesh. Lines with heights keep them, lines "
-             "without follow the raster.",
+     .help = "Lines and polygon rings of a vector file become edges of the mesh. Lines with heights keep their "
+             "heights; other lines follow the raster.",
      .brief = "Lines of a vector file become edges"},
     {.id = kBreaklineZ,
      .name = "--breakline-z",
@@ -56,8 +56,8 @@ const OptionRow kLineRows[] = {
      .value = "RULE",
      .choices = "error first mean highest",
      .by_default = "error",
-     .help = "Rule where lines of different heights meet. error: refuse. Else use the height of the first line, the "
-             "mean, or the highest."},
+     .help = "Rule for places where lines of different heights meet. error: refuse the lines. The others use the "
+             "height of the first line, the mean height or the highest."},
     {.id = kCutline,
      .name = "--cutline",
      .commands = kSimplify,
@@ -77,7 +77,7 @@ const OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Judge only samples in the polygons of a vector file, for a mesh clipped to these.",
+     .help = "Judge only samples in the polygons of a vector file, to which the mesh was clipped.",
      .brief = "Polygons that clipped the mesh"},
     {.id = kInset,
      .name = "--inset",
@@ -89,8 +89,8 @@ const OptionRow kLineRows[] = {
      .value = "D",
      .unit = "metres, or units of the CRS",
      .by_default = "0",
-     .help = "Move the outline of the polygons inwards by D, outwards if D is negative. In metres if known, else in "
-             "units of the CRS."},
+     .help = "Move the outline of the polygons inwards by D, or outwards if D is negative. D is in metres if the CRS "
+             "has a known unit, else in units of the CRS."},
     {.id = kMaskOutside,
      .name = "--mask-outside",
      .part_of = kCutline,
@@ -108,8 +108,8 @@ const OptionRow kLineRows[] = {
      .unit = "units of the heights",
      .above = 0,
      .limit_why = "0 would make a wall of every step",
-     .help = "Model height jumps larger than H between neighbouring samples as straight walls. Saves triangles around "
-             "buildings and quarries."},
+     .help = "Model height jumps larger than H between neighbouring samples as straight walls. This saves triangles "
+             "around buildings and quarries."},
     {.id = kRidges,
      .name = "--ridges",
      .commands = kSimplify,
@@ -119,8 +119,8 @@ const OptionRow kLineRows[] = {
      .unit = "units of the heights",
      .above = 0,
      .limit_why = "0 would make a ridge of all noise",
-     .help = "Prefer edges along ridges and valleys at least H high or deep, in the raster's units. Best: 1 to 2 "
-             "times the max error."},
+     .help = "Prefer edges along ridges and valleys that are at least H high or deep, in the raster's units. The best "
+             "H is 1 to 2 times the max error."},
     {.id = kKeepRidges,
      .name = "--keep-ridges",
      .part_of = kRidges,
@@ -136,10 +136,9 @@ const OptionRow kLineRows[] = {
      .group = OptionGroup::kLines,
      .type = kInputFile,
      .value = "FILE[:LAYER]",
-     .help =
-         keep(fmt::format("Polygons of materials, for {}: their borders become edges of the mesh. Each triangle gets "
-                          "the number of its polygon, or 1 outside.",
-                          endings_with_zones()))},
+     .help = keep(fmt::format("Polygons of materials, for {}. Their borders become edges of the mesh. Each triangle "
+                              "has the number of its polygon, or 1 outside the polygons.",
+                              endings_with_zones()))},
     {.id = kMaterialField,
      .name = "--material-field",
      .part_of = kMaterials,
@@ -169,8 +168,8 @@ const OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Lakes: flatten each polygon of a vector file to a low percentile of its shore. Shores become edges of "
-             "the mesh.",
+     .help = "Lakes: flatten each polygon of a vector file to a low percentile of its shore's heights. Shores become "
+             "edges of the mesh.",
      .brief = "Lakes become flat"},
     {.id = kWater,
      .name = "--water",
@@ -179,8 +178,8 @@ const OptionRow kLineRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
-     .help = "Lakes: flatten the nodes in the polygons of a vector file to a low percentile of their shore, alike in "
-             "all tiles and levels.",
+     .help = "Lakes: flatten the nodes in the polygons of a vector file to a low percentile of their shore's heights, "
+             "the same in all tiles and levels.",
      .brief = "Lakes become flat"},
     {.id = kWater,
      .name = "--water",
@@ -191,7 +190,7 @@ const OptionRow kLineRows[] = {
      .by_default = "from the mesh file",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Lakes of the mesh, where points are not judged."},
+     .help = "Lakes of the mesh. Points in lakes are not judged."},
     {.id = kWaterMask,
      .name = "--watermask",
      .commands = kTile | kTilePlan | kServe,
@@ -211,7 +210,7 @@ const OptionRow kLineRows[] = {
      .least = 0,
      .most = 100,
      .is_for_points = true,
-     .help = "Share of the shore that lies below the level of the lake, in percent."},
+     .help = "Percentage of the shore that is below the level of the lake."},
     {.id = kDetectFlats,
      .name = "--detect-flats",
      .part_of = kWater,
@@ -253,8 +252,8 @@ const OptionRow kLineRows[] = {
      .limit_why = "beyond that refinement hardly ever comes to an end; up to 20 degrees are proven to be possible, 30 "
                   "mostly are",
      .is_for_points = true,
-     .help = "Smallest angle of a triangle, seen from above, in degrees. The error bound, lines and outline have "
-             "priority: smaller angles that they force are counted, with a warning."},
+     .help = "Smallest allowed angle of a triangle, in degrees, seen from above. The error bound, lines and outline "
+             "have priority. A warning counts smaller angles that they force."},
     {.id = kMaxEdge,
      .name = "--max-edge",
      .commands = kSimplify,
@@ -264,7 +263,7 @@ const OptionRow kLineRows[] = {
      .unit = "units of x and y",
      .above = 0,
      .is_for_points = true,
-     .help = "Longest edge, from above, in the mesh's units of x and y. Always kept."},
+     .help = "Longest allowed edge, seen from above, in the mesh's units of x and y. No edge is longer."},
     {.id = kMinEdge,
      .name = "--min-edge",
      .commands = kSimplify,
@@ -275,8 +274,8 @@ const OptionRow kLineRows[] = {
      .above = 0,
      .range = "above 0, at most half of --max-edge",
      .is_for_points = true,
-     .help = "Shortest edge, seen from above, in the mesh's units of x and y. All other goals have priority: shorter "
-             "edges that they need are counted, with a warning."},
+     .help = "Shortest allowed edge, seen from above, in the mesh's units of x and y. All other goals have priority. A "
+             "warning counts shorter edges that they need."},
     {.id = kGrade,
      .name = "--grade",
      .commands = kSimplify,
@@ -285,8 +284,8 @@ const OptionRow kLineRows[] = {
      .value = "G",
      .above = 0,
      .is_for_points = true,
-     .help = "Growth of edge lengths: no edge whose far end is d from one of length s is longer than 2 (s + G d). 0.2 "
-             "is moderate. Always kept."},
+     .help = "Largest growth of edge lengths. An edge whose far end is at distance d from an edge of length s is at "
+             "most 2 (s + G d) long, without exception. 0.2 is moderate."},
 
     {.id = kBase,
      .name = "--base",
@@ -308,9 +307,9 @@ const OptionRow kLineRows[] = {
      .type = kText,
      .value = "KEY=VALUE,...",
      .choices = "size= base= thickness= exaggerate=",
-     .help = "Close the mesh into a solid for printing, as .stl, .3mf, .obj or .ply. size=120mm: longest side. "
-             "base=H: base height in the raster's units. thickness=3mm: below the lowest vertex. exaggerate=F: height "
-             "factor.",
+     .help = "Close the mesh into a solid for printing, as .stl, .3mf, .obj or .ply. size=120mm: longest side. base=H: "
+             "base height in the raster's units. thickness=3mm: distance of the base below the lowest vertex. "
+             "exaggerate=F: height factor.",
      .brief = "A closed solid for printing: size=120mm, exaggerate=2"},
     {.id = kSplit,
      .name = "--split",
@@ -318,8 +317,8 @@ const OptionRow kLineRows[] = {
      .group = OptionGroup::kSolids,
      .type = kText,
      .value = "CxR[,KEY=VALUE]",
-     .help = "Cut the solid into C columns and R rows of print tiles: files OUT-r1-c1.stl ..., or objects of one "
-             ".3mf. joint=dovetail: interlocking tabs. gap=0.2mm: distance between neighbours."},
+     .help = "Cut the solid into C columns and R rows of print tiles, written as files OUT-r1-c1.stl ... or as objects "
+             "of one .3mf. joint=dovetail: interlocking tabs. gap=0.2mm: distance between neighbours."},
 };
 
 }  // namespace

@@ -37,9 +37,9 @@ constexpr OptionRow kSampleRows[] = {
      .value = "POLICY",
      .choices = "voids fill background",
      .by_default = "voids",
-     .help = "Treatment of missing samples. voids: interpolate enclosed voids of at most 100 samples a side; the rest "
-             "gets the height of --background. fill: interpolate all within a distance of a height. background: "
-             "interpolate none.",
+     .help = "Treatment of missing samples. voids: interpolate enclosed voids of at most 100 samples a side; other "
+             "missing samples have the height of --background. fill: interpolate all missing samples within a distance "
+             "of a height. background: interpolate none.",
      .brief = "Treatment of missing samples: voids, fill or background"},
     {.id = kFillDistance,
      .name = "--fill-distance",
@@ -74,7 +74,8 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "samples",
      .by_default = "0",
      .least = 0,
-     .help = "How far the outline of the valid data may move outwards to save triangles, in samples."},
+     .help =
+         "Largest distance, in samples, by which the outline of the valid data may move outwards to save triangles."},
 
     {.id = kMask,
      .name = "--mask",
@@ -82,8 +83,8 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Raster of weights of the errors, from 0 (no bound) to 1. If the largest is above 1, all are divided by "
-             "it."},
+     .help = "Raster of weights for the errors, from 0 (no bound) to 1. If the largest weight is above 1, all are "
+             "divided by it."},
     {.id = kTolerance,
      .name = "--tolerance",
      .commands = kSimplify,
@@ -91,9 +92,8 @@ constexpr OptionRow kSampleRows[] = {
      .type = kInputFile,
      .value = "FILE",
      .is_for_points = true,
-     .help =
-         "Raster of tolerances, one for each sample, in the units of the heights; of points that of the pixel around "
-         "each. No value means no bound. Can be used without -e, but not for points."},
+     .help = "Raster of tolerances, one for each sample, in the units of the heights. A point has the tolerance of its "
+             "pixel. A pixel without value sets no bound. -e is optional, except for points."},
     {.id = kTolerance,
      .name = "--tolerance",
      .commands = kMeasure,
@@ -112,8 +112,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Region of interest: errors are at most M, such as 0.2 or 20cm, in the polygons, and on the lines, of a "
-             "vector file. Can be used without -e, but not for points; where regions overlap, the smallest M counts.",
+     .help = "Region of interest: errors are at most M, such as 0.2 or 20cm, in the polygons and on the lines of a "
+             "vector file. Where regions overlap, the smallest M counts. -e is optional, except for points.",
      .brief = "Errors of at most M in the polygons of a vector file"},
     {.id = kRoi,
      .name = "--roi",
@@ -123,8 +123,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
      .is_for_points = true,
-     .help = "Region of interest: exit code 3 if an error is above M in the polygons, or on the lines, of a vector "
-             "file. Where regions overlap, the smallest M counts."},
+     .help = "Region of interest: end with exit code 3 if an error is above M in the polygons or on the lines of a "
+             "vector file. Where regions overlap, the smallest M counts."},
     {.id = kFalloff,
      .name = "--falloff",
      .part_of = kRoi,
@@ -137,24 +137,23 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "0",
      .least = 0,
      .is_for_points = true,
-     .help = "Distance over which the bound blends from that of each region to that of all samples, such as 500 or "
-             "500m. In "
-             "metres if known, else in units of the CRS."},
+     .help = "Distance over which the bound changes from that of each region to that of all samples, such as 500 or "
+             "500m. D is in metres if the CRS has a known unit, else in units of the CRS."},
     {.id = kScript,
      .name = "--script",
      .commands = kSimplify,
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Text file on single samples. A line 's COL ROW' forces a vertex; 'i COL ROW' or 'u COL ROW' ignores a "
-             "sample."},
+     .help = "Text file with rules for single samples. A line 's COL ROW' forces a vertex; a line 'i COL ROW' or 'u "
+             "COL ROW' ignores a sample."},
     {.id = kScript,
      .name = "--script",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Script of simplify. Samples of its lines 'i COL ROW' and 'u COL ROW' have no bound."},
+     .help = "Script that simplify used. Samples in its lines 'i COL ROW' and 'u COL ROW' have no bound."},
 
     {.id = kTexture,
      .name = "--texture",
@@ -222,7 +221,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "first last highest lowest mean",
      .by_default = "first",
      .is_for_points = true,
-     .help = "Point to use of several at one place: the first, last, highest or lowest, or their mean."},
+     .help = "Point to use if several are at one place: the first, last, highest or lowest, or their mean."},
     {.id = kDespike,
      .name = "--despike",
      .part_of = kDuplicates,
@@ -234,7 +233,7 @@ constexpr OptionRow kSampleRows[] = {
      .unit = "units of the heights",
      .least = 0,
      .is_for_points = true,
-     .help = "Also omit outliers: points that differ in height by more than M from all but one of their 8 nearest "
+     .help = "Also omit outliers: points whose height differs by more than M from at least 7 of their 8 nearest "
              "neighbours."},
     {.id = kDuplicates,
      .name = "--duplicates",
@@ -245,7 +244,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "first last highest lowest mean",
      .by_default = "from the mesh file, else first",
      .is_for_points = true,
-     .help = "Point to use of several at one place: the first, last, highest or lowest, or their mean."},
+     .help = "Point to use if several are at one place: the first, last, highest or lowest, or their mean."},
     {.id = kDespike,
      .name = "--despike",
      .part_of = kDuplicates,
@@ -258,7 +257,7 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "from the mesh file",
      .least = 0,
      .is_for_points = true,
-     .help = "Also omit outliers: points that differ in height by more than M from all but one of their 8 nearest "
+     .help = "Also omit outliers: points whose height differs by more than M from at least 7 of their 8 nearest "
              "neighbours."},
     {.id = kLayer,
      .name = "--layer",
@@ -268,7 +267,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "NAME[,NAME...]",
      .by_default = "the first one with points, else with lines",
      .is_for_points = true,
-     .help = "Layers to read: of a vector file, a drawing (DXF) or LandXML."},
+     .help = "Layers to read from a vector file, a drawing (DXF) or LandXML."},
     {.id = kZField,
      .name = "--z-field",
      .commands = kSimplify | kMeasure | kInfo,
@@ -277,7 +276,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "NAME",
      .by_default = "the third coordinate, else z, height, elevation, elev or h",
      .is_for_points = true,
-     .help = "Column or attribute with the heights: of points, or of lines such as contours (ELEV)."},
+     .help = "Column or attribute with the heights of points, or of lines such as contours (ELEV)."},
     {.id = kColumns,
      .name = "--columns",
      .commands = kSimplify | kMeasure | kInfo,
@@ -295,8 +294,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "LIST",
      .by_default = "all",
      .is_for_points = true,
-     .help = "Classes of a LAS file's points that are used: names or numbers, such as ground,water or 2,9; or those "
-             "that are not, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
+     .help = "Classes of a LAS file's points to use, by name or number, such as ground,water or 2,9; or classes to "
+             "exclude, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
     {.id = kClass,
      .name = "--class",
      .commands = kMeasure,
@@ -305,8 +304,8 @@ constexpr OptionRow kSampleRows[] = {
      .value = "LIST",
      .by_default = "from the mesh file, else all",
      .is_for_points = true,
-     .help = "Classes of a LAS file's points that are used: names or numbers, such as ground,water or 2,9; or those "
-             "that are not, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
+     .help = "Classes of a LAS file's points to use, by name or number, such as ground,water or 2,9; or classes to "
+             "exclude, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
     {.id = kReturns,
      .name = "--returns",
      .part_of = kClass,
@@ -318,7 +317,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "all first last only",
      .by_default = "all",
      .is_for_points = true,
-     .help = "Returns of a pulse whose points of a LAS file are used; only: those of pulses with one return."},
+     .help = "Points of a LAS file to use, by their return of a pulse. only: points of pulses with one return."},
     {.id = kReturns,
      .name = "--returns",
      .part_of = kClass,
@@ -330,7 +329,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "all first last only",
      .by_default = "from the mesh file, else all",
      .is_for_points = true,
-     .help = "Returns of a pulse whose points of a LAS file are used; only: those of pulses with one return."},
+     .help = "Points of a LAS file to use, by their return of a pulse. only: points of pulses with one return."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kSimplify,

@@ -27,18 +27,18 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "FORMULA",
      .choices = "global local local8 curvature distance global*local global*local8 global*curvature global*distance",
      .by_default = "global",
-     .help = "Measure that ranks samples: global (error of the mesh), local or local8 (difference from the mean of "
-             "its 4 or 8 neighbours) or curvature. Or a product: global*local, 'global*(local+1)', "
-             "'global*sqrt(curvature+1)'. Distance, to the nearest corner of its triangle, attenuates errors near "
-             "vertices: 'global*sqrt(distance+1)'.",
+     .help = "Measure that ranks samples: global (error of the mesh), local or local8 (difference from the mean of its "
+             "4 or 8 neighbours) or curvature. Or a product: global*local, 'global*(local+1)', "
+             "'global*sqrt(curvature+1)'. The distance to the nearest corner of the sample's triangle attenuates "
+             "errors near vertices: 'global*sqrt(distance+1)'.",
      .brief = "Measure that ranks samples, such as global*local"},
     {.id = kOnePass,
      .name = "--one-pass",
      .commands = kStrategies,
      .group = OptionGroup::kStrategies,
      .type = kFlag,
-     .help = "Rank all samples once, by --importance local, local8 or curvature, and insert the best. For -t and -p: "
-             "with -e it inserts nearly everything.",
+     .help = "Rank all samples once, by --importance local, local8 or curvature, and insert the best. Use it with -t "
+             "or -p: with -e, nearly all samples are inserted.",
      .brief = "Rank all samples once and insert the best"},
     {.id = kAlgorithm,
      .name = "--algorithm",
@@ -48,8 +48,8 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "brute local heap",
      .by_default = "heap",
      .is_of_mesh = false,
-     .help = "How the greedy order finds the next sample: the paper's algorithms I, II and III. The mesh is the "
-             "same.",
+     .help =
+         "Search for the next sample of the greedy order, by the paper's algorithm I, II or III. The mesh is the same.",
      .brief = "The paper's algorithms I, II and III of the greedy order"},
     {.id = kBatch,
      .name = "--batch",
@@ -59,8 +59,8 @@ constexpr OptionRow kStrategyRows[] = {
      .value = "RULE",
      .choices = "const frac: independent",
      .by_default = "one sample at a time",
-     .help = "Insert several samples per pass. const: all that break the bound. frac:A: all of at least A times the "
-             "worst. independent: those in unchanged triangles.",
+     .help = "Insert several samples per pass. const: all that break the bound. frac:A: all with at least A times the "
+             "worst error. independent: those in triangles that the pass has not changed.",
      .brief = "Insert several samples per pass"},
     {.id = kEdges,
      .name = "--edges",
@@ -69,7 +69,7 @@ constexpr OptionRow kStrategyRows[] = {
      .type = kChoice,
      .choices = "delaunay data",
      .by_default = "delaunay",
-     .help = "Diagonals to use: those of well-shaped triangles, or those that fit the heights.",
+     .help = "Diagonals to use. delaunay: those of well-shaped triangles. data: those that fit the heights.",
      .brief = "Diagonals by shape (delaunay) or by the heights (data)"},
     {.id = kEdgeScore,
      .name = "--edge-score",
@@ -92,8 +92,8 @@ constexpr OptionRow kStrategyRows[] = {
      .least = 0,
      .most = 1,
      .limit_why = "0 counts the data alone, 1 the shape alone",
-     .help = "With --edges data: 0 uses the data alone, 1 the shape alone.",
-     .brief = "With --edges data: 0 uses data alone, 1 shape alone"},
+     .help = "With --edges data: 0 uses only the data, 1 only the shape.",
+     .brief = "With --edges data: 0 uses only data, 1 only shape"},
     {.id = kSupersample,
      .name = "--supersample",
      .commands = kStrategies,

@@ -38,8 +38,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "FORMAT",
      .choices = "jpeg png webp",
      .by_default = "jpeg",
-     .help = "Format of the tiles' textures. jpeg and webp have a quality of 90, png is lossless. Clients must know "
-             "EXT_texture_webp for webp.",
+     .help = "Format of the tiles' textures. jpeg and webp have a quality of 90, png is lossless. For webp, clients "
+             "must support EXT_texture_webp.",
      .brief = "Format of textures: jpeg, png or webp"},
     {.id = kMaxError,
      .name = "--max-error",
@@ -82,9 +82,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "GRID",
      .choices = "geographic mercator local",
      .by_default = "geographic; local for a raster without a place on the globe",
-     .help = "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at "
-             "level 0, up to 85.0511 degrees; quantized-mesh only. local: a plane for one raster, with its samples as "
-             "nodes; 3D Tiles only.",
+     .help = "Grid of the tiles. geographic: two tiles of 180 degrees at level 0. mercator: the grid of web maps, one "
+             "tile at level 0, up to 85.0511 degrees; quantized-mesh only. local: a plane for one raster, with its "
+             "samples as nodes; 3D Tiles only.",
      .brief = "Grid of the tiles: geographic, mercator, or local (a plane)"},
     {.id = kGrid,
      .name = "--grid",
@@ -94,8 +94,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "GRID",
      .choices = "geographic mercator",
      .by_default = "geographic",
-     .help = "Grid of the tiles. geographic: two of 180 degrees at level 0. mercator: that of web maps, one tile at "
-             "level 0, up to 85.0511 degrees.",
+     .help = "Grid of the tiles. geographic: two tiles of 180 degrees at level 0. mercator: the grid of web maps, one "
+             "tile at level 0, up to 85.0511 degrees.",
      .brief = "Grid of the tiles: geographic or mercator"},
     {.id = kGrid,
      .name = "--grid",
@@ -116,7 +116,7 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "nodes",
      .help = "Scope of the max error. nodes: at the tiles' nodes. samples: also at the raster's samples, at their "
              "exact places; nodes are then twice as dense (--cells 256 unless given).",
-     .brief = "Scope of the max error: at nodes, or at the raster's samples, too"},
+     .brief = "Scope of the max error: at nodes, or also at the raster's samples"},
     {.id = kMaxTileBytes,
      .name = "--max-tile-bytes",
      .commands = kTile | kTilePlan | kServe,
@@ -126,8 +126,8 @@ constexpr OptionRow kTileRows[] = {
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "any",
      .least = 1,
-     .help = "Largest stored size of a tile. The max error of a larger tile's interior is doubled until the tile "
-             "fits; borders stay, so that neighbours meet.",
+     .help = "Largest stored size of a tile. The max error of a larger tile's interior is doubled until the tile fits; "
+             "borders stay unchanged, so that neighbours meet.",
      .brief = "Largest size of a tile, at the cost of its interior's error"},
     {.id = kBreaklines,
      .name = "--breaklines",
@@ -137,7 +137,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. "
-             "Each level moves them to its own nodes.",
+             "Each level moves the lines to its own nodes.",
      .brief = "Lines that become edges of the tiles' meshes"},
     {.id = kCells,
      .name = "--cells",
@@ -177,7 +177,7 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "auto",
      .help = "Vertical datum of the heights. auto: from the raster's CRS, which must name one. egm96: mean sea level, "
              "by a built-in grid. egm2008, or EPSG:N of a vertical CRS: by PROJ, if its grid is installed. ellipsoid: "
-             "as GPS gives heights. none: unknown; heights are used unchanged and may be 100 m off.",
+             "heights as measured by GPS. none: unknown; heights are used unchanged and may be 100 m off.",
      .brief = "Vertical datum: egm96 (sea level) or ellipsoid"},
     {.id = kGeoid,
      .name = "--geoid",
@@ -206,7 +206,7 @@ constexpr OptionRow kTileRows[] = {
      .unit = "metres above the ellipsoid",
      .by_default = "0",
      .help = "Height above the ellipsoid of nodata and of the globe around the raster, whatever --vertical is. With a "
-             "local grid: of nodata alone; by default the raster's lowest.",
+             "local grid: only of nodata; the default is then the raster's lowest height.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",
@@ -230,7 +230,8 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kVerdict,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Compare each tile with all nodes below it, from this raster or a plan's rasters (.json).",
+     .help =
+         "Compare each tile with all nodes below it, which are read from this raster or from a plan's rasters (.json).",
      .brief = "Raster or plan to measure bounds against"},
     {.id = kShard,
      .name = "--shard",
@@ -273,8 +274,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "WHAT",
      .choices = "stamp content",
      .by_default = "stamp",
-     .help = "How to detect a changed raster. stamp: by size and modification time. content: by a hash of all bytes, "
-             "which finds edits that keep both, and accepts copies with another time."},
+     .help = "Method to detect a changed raster. stamp: by size and modification time. content: by a hash of all "
+             "bytes, which finds edits that preserve size and time, and accepts copies with another time."},
     {.id = kSurvey,
      .name = "--survey",
      .commands = kTilePlan,
@@ -324,8 +325,9 @@ constexpr OptionRow kTileRows[] = {
      .value = "SIZE",
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "1G",
-     .help = "Memory of the caches, if tiles are made. One half holds the raster, or, if it is larger, its most "
-             "recent blocks; the other the most recent tiles. Making tiles needs up to another 300 MB per thread."},
+     .help = "Memory of the caches, if tiles are made. One half holds the raster, or the most recent blocks of a "
+             "larger raster. The other half holds the most recent tiles. Each thread that makes tiles needs up to "
+             "another 300 MB."},
     {.id = kPort,
      .name = "--port",
      .commands = kServe,
@@ -345,7 +347,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "ADDRESS",
      .choices = "127.0.0.1 0.0.0.0 ::1 ::",
      .by_default = "127.0.0.1",
-     .help = "Address to listen on. The default answers this machine alone; 0.0.0.0 answers others too."},
+     .help = "Address to listen on. The default answers only this machine; 0.0.0.0 also answers others."},
 };
 
 }  // namespace

@@ -157,7 +157,7 @@ enum class OptionId {
   kHelpAll,
   kAll,
   kVersion,
-  kNone,  ///< no option; their number
+  kNone,  ///< no option; also the number of options
 };
 
 /// In the order of the help.
@@ -199,7 +199,7 @@ using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kHelpCommand = 16,
                           kVersionCommand = 32, kTile = 64, kServe = 128, kTilePlan = 256, kTileRun = 512,
                           kTileFinish = 1024, kTileCheck = 2048, kView = 4096;
-/// The options that `scarp classic` has besides those of simplify. simplify also accepts them until 0.4.
+/// The options that only `scarp classic` has; simplify also accepts them until 0.4.
 inline constexpr Commands kStrategies = 8192;
 inline constexpr Commands kClassic = kSimplify | kStrategies;
 inline constexpr Commands kEveryCommand = 16383;
@@ -223,14 +223,14 @@ struct OptionRow {
   double least = -kNoLimit;     ///< inclusive lower limit
   double above = -kNoLimit;     ///< exclusive lower limit
   double most = kNoLimit;       ///< inclusive upper limit
-  const char* limit_why = "";   ///< reason of a limit, for errors
-  const char* range = "";       ///< range in words, if the three above do not express it
+  const char* limit_why = "";   ///< reason for a limit, in errors
+  const char* range = "";       ///< range in words, if the limits do not express it
   bool is_repeatable = false;
   bool is_required = false;
   bool is_of_mesh = true;      ///< can change the mesh: part of the canonical command
   bool is_for_points = false;  ///< also valid for scattered points
   const char* help;            ///< one or two sentences; completions use the first
-  const char* brief = "";      ///< one line for -h if all options do not fit a screen; empty: omitted there
+  const char* brief = "";      ///< line of -h if the full help exceeds a screen; empty: omitted there
 
   bool is_argument() const { return name[0] != '-'; }
   std::vector<std::string> list_choices() const;
@@ -268,7 +268,7 @@ std::span<const CommandRow> command_rows();
 std::span<const GroupRow> group_rows();
 /// The rows of the command, in the order of the help.
 std::vector<const OptionRow*> rows_of(Commands command);
-/// The same plus rows that it accepts under earlier spellings.
+/// The command's rows, and rows that it accepts by earlier spellings.
 std::vector<const OptionRow*> accepted_rows(Commands command);
 /// The row of the option ("--max-error", "-e") if one of the commands has it; else null.
 const OptionRow* find_option(Commands commands, std::string_view name);

@@ -21,7 +21,7 @@ namespace {
 struct Foreign {
   const char* words;   ///< words of other programs, without dashes, separated by blanks
   OptionId meant;      ///< Scarp's option; kNone if it has none
-  const char* advice;  ///< in place of "did you mean"; may be empty
+  const char* advice;  ///< instead of "did you mean"; may be empty
 };
 
 /// Names from GDAL, hmm, delatin, gltfpack and mesh programs. Entries for options that the command lacks are skipped.
@@ -69,7 +69,7 @@ constexpr Foreign kForeign[] = {
     {"optimize quality level compression-level", OptionId::kEffort, ""},
 };
 
-/// Lower case, except single letters; dashes for underscores; without leading dashes and value.
+/// The word in lower case, except single letters, with dashes for underscores, without leading dashes and value.
 std::string bare(const std::string& word) {
   std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
   name.resize(std::min(name.find('='), name.size()));
@@ -80,7 +80,7 @@ std::string bare(const std::string& word) {
   return name;
 }
 
-/// True if one of the words equals this one or, with four letters or more, is at most `most` edits away.
+/// True if one of `words` equals `word` or, if it has four letters or more, is at most `most` edits away.
 bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
   constexpr std::size_t kLongest = 64;  // length of the longest word
   if (word.size() > kLongest) return false;

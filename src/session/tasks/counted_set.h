@@ -1,4 +1,4 @@
-// A tileset that counts its tiles on the way to the container.
+// A tileset that counts tiles while it writes them.
 #pragma once
 
 #include <cstdint>

@@ -24,8 +24,8 @@ namespace {
 
 using enum OptionId;
 
-/// Fills mesh.channels from 8-bit colours if the file has nothing else, and checks their number. `path`: the mesh's,
-/// for the error.
+/// Fills mesh.channels from 8-bit colours if the file has nothing else, and checks their number. `path`: the mesh file,
+/// for errors.
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path) {
   const std::size_t bands = channels.count();
   if (mesh.channel_count > 0 && static_cast<std::size_t>(mesh.channel_count) == bands) return {};

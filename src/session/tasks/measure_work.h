@@ -21,7 +21,7 @@ struct StreamedErrors {
 
 /// Checks the files of --map and --error-raster before the work.
 Result<void> check_measure_outputs(const GivenOptions& given);
-/// Reads raster and mesh, and judges.
+/// Reads raster and mesh, and judges the mesh.
 Result<void> judge_inputs(const GivenOptions& given, const Runner& runner, Judged& judged, StreamedErrors& errors);
 /// Writes the files of --map and --error-raster.
 Result<void> write_error_files(const GivenOptions& given, const Judged& judged, StreamedErrors& streamed);

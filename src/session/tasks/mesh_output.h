@@ -13,15 +13,15 @@
 
 namespace scarp::cli {
 
-/// kUsage if the format cannot hold a mesh in the CRS with heights in `unit` (both may be empty): an early check of
-/// what writing would find.
+/// kUsage if the format cannot hold a mesh in the CRS with heights in `unit` (both may be empty). Checks early what
+/// writing would reject.
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
-/// kUsage if the format requires metres but x and y have another unit of length. `metres`: of that unit, 0 if unknown.
+/// kUsage if the format requires metres but x and y have another unit of length. `metres`: its length, 0 if unknown.
 Result<void> check_unit_of_frame(const OutputFormat& format, double metres);
 
 /// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
 Result<void> close_with_base(Mesh& mesh, double base);
-/// Counts the terrain's vertices and triangles, then closes it into a solid on request.
+/// Counts the terrain's vertices and triangles, then closes the terrain into a solid on request.
 Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
 /// Records in the mesh its program, command and frame. `crs_option`: the --crs that measure() needs, or empty.
 void add_origin(const std::string& command, const std::string& frame, const std::string& crs,

@@ -26,7 +26,7 @@ constexpr double kMostCells = 1 << 30;
 
 /// Cells along an axis that cover its values.
 struct Cells {
-  double first = 0;  ///< edge, a multiple of the size
+  double first = 0;  ///< lower edge, a multiple of the size
   int count = 0;
 };
 
@@ -39,7 +39,7 @@ Result<Cells> cells_over(const std::vector<double>& values, double size) {
   return Cells{first * size, static_cast<int>(std::max(last - first, 2.0))};
 }
 
-/// Sets the place of a raster with that north-western corner and that size of a cell, in coordinates of the points.
+/// Sets the place of a raster by its north-western corner and cell size, in coordinates of the points.
 void place_in_file(const PointSet& points, const std::array<double, 2>& corner, const std::array<double, 2>& cell,
                    RasterInfo& info) {
   const auto& [west, east_by_x, unused, south, unused_too, north_by_y] = points.to_source;
@@ -49,8 +49,8 @@ void place_in_file(const PointSet& points, const std::array<double, 2>& corner, 
   info.has_georeference = true;
 }
 
-/// The mesh's heights at the centres of cells of a size, whose corners are multiples of it; NaN beyond the mesh.
-/// REQUIRES: the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
+/// The mesh's heights at the centres of cells, whose corners are multiples of `size`; NaN outside the mesh. REQUIRES:
+/// the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
 Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads) {
   const PointSet& points = outcome.points;
   SCARP_TRY(const auto& across, cells_over(points.x, size));

@@ -29,7 +29,7 @@ namespace {
 
 using enum OptionId;
 
-/// An option that a mesh file keeps for its judge.
+/// An option that a mesh file stores for its judge.
 struct Remembered {
   OptionId option;
   const char* key;             ///< in the metadata
@@ -39,7 +39,7 @@ constexpr Remembered kRemembered[] = {
     {kDuplicates, "duplicates"}, {kDespike, "despike"},       {kBoundary, "boundary"}, {kLayer, "layer", true},
     {kZField, "z_field", true},  {kColumns, "columns", true}, {kClass, "class", true}, {kReturns, "returns", true}};
 
-/// `as`: how a raster would be read.
+/// `as`: options for reading a raster.
 Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const ProgressCallback& progress) {
   SCARP_TRY(auto&& options, parse_points(given, as));
   options.progress = progress;
@@ -62,7 +62,7 @@ std::string crs_option(const SimplifyPlan& plan) {
   return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
 }
 
-/// Places in an image over the extent, from its top left corner.
+/// Adds texture coordinates of an image over the extent, from its top left corner.
 void add_uvs(const Extent& extent, Mesh& mesh) {
   mesh.uvs.clear();
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -76,7 +76,7 @@ void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
   for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
 }
 
-/// How far a mesh was moved from the source's coordinates, if its metadata hold it, and show no other change.
+/// The offset of a mesh from the source's coordinates, if its metadata hold one and no other change.
 std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   const auto said = mesh.metadata.find("to_source");
   if (said == mesh.metadata.end()) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   return std::array{affine[0].get<double>(), affine[3].get<double>()};
 }
 
-/// How the points of such a mesh are read, unless `given` sets them.
+/// Options for reading the points of such a mesh, unless `given` sets them.
 Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh, const std::string& path) {
   const auto find = [&](const char* key) {
     const auto entry = mesh.metadata.find(key);
@@ -107,8 +107,8 @@ Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh
   return options;
 }
 
-/// Puts a mesh in a local frame back to where the points lie: by its metadata, or, where a format has no place for
-/// them, where they do not meet otherwise.
+/// Moves a mesh from a local frame back to the points: by its metadata or, in a format that cannot hold metadata, if
+/// they would not meet otherwise.
 void put_back(const PointSet& points, Mesh& mesh) {
   if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
   if (points.is_local || mesh.metadata.contains("frame")) return;
@@ -120,7 +120,7 @@ void put_back(const PointSet& points, Mesh& mesh) {
 
 void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   Mesh& mesh = outcome.simplified.mesh;
-  // The judge puts the mesh back and reads the points in their own coordinates.
+  // The judge moves the mesh back and reads the points in their own coordinates.
   add_origin(plan.canonical_command, outcome.frame(), outcome.centre ? "" : outcome.points.crs,
              outcome.centre ? "source" : crs_option(plan), mesh);
   if (outcome.centre) {
@@ -152,7 +152,7 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   mesh.metadata["error"] = error.dump();
 }
 
-/// A frame that the mesh file names and the points cannot have.
+/// The error for a frame that the mesh file names and the points cannot have.
 Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
   if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
   if (crs != "grid") {
@@ -166,7 +166,7 @@ Error explain_frame(Error error, const std::string& crs, const std::string& mesh
   return error;
 }
 
-/// Library errors about the points themselves do not know the file.
+/// Adds the path to the library's errors about points, which lack it.
 Error with_path(Error error, const std::string& path) {
   if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
     error.message = fmt::format("{}: {}", path, error.message);
@@ -183,7 +183,7 @@ Result<void> check_promise(const PointsOutcome& outcome) {
               "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
 }
 
-/// Half the max error that is asked for, or, where a budget decides, a share of the relief.
+/// Half the requested max error or, with a budget, a fraction of the relief.
 double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points) {
   constexpr double kShareOfRelief = 1.0 / 400;
   const HeightRange heights = height_range(points);
@@ -199,7 +199,7 @@ Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& 
   return std::move(made);
 }
 
-/// For points --cutline is another name of --boundary.
+/// For points, --cutline is another name for --boundary.
 Result<GivenOptions> boundary_of_cutline(const GivenOptions& given) {
   if (!given.has(kCutline)) return given;
   const std::vector<std::string> files = given.all(kCutline);
@@ -220,7 +220,7 @@ Result<GivenOptions> boundary_of_cutline(const GivenOptions& given) {
   return asked;
 }
 
-/// The option that ends the surface, as stated, for messages.
+/// The given option that bounds the surface, for messages.
 OptionId end_option(const GivenOptions& stated) { return stated.has(kCutline) ? kCutline : kBoundary; }
 
 /// Warns where the convex hull bridges bays or has slivers.
@@ -309,7 +309,7 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   options.max_error = outcome.asked;
   options.max_triangles = plan.simplify.goals.max_triangles;
   options.max_vertices = plan.simplify.goals.max_vertices;
-  options.float32_positions = plan.format.is_float32();  // points do not lie where float32 is exact
+  options.float32_positions = plan.format.is_float32();  // float32 does not hold the places of points exactly
   options.duplicates = outcome.policy;
   options.boundary_length = boundary.length;
   options.quality = plan.simplify.quality;
@@ -370,7 +370,7 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   }
   SCARP_RETURN_IF_ERROR(check_measure_outputs(given));
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
-  // The settings of the mesh hold for its judge, unless options set others.
+  // The judge uses the settings of the mesh, unless options set others.
   GivenOptions asked = given, of_other_file = given;
   for (const Remembered& of : kRemembered) {
     const auto entry = judged.mesh.metadata.find(of.key);

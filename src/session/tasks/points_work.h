@@ -16,7 +16,7 @@ void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome);
 /// Closes the mesh into a solid on request, then places it.
 Result<void> complete_mesh(const SimplifyPlan& plan, PointsOutcome& outcome);
 
-/// Reads the mesh and the points, and judges the one by the other.
+/// Reads the mesh and the points, and judges the mesh.
 Result<void> judge_points(const GivenOptions& given, const Runner& runner, JudgedPoints& judged);
 
 }  // namespace scarp::cli

@@ -17,7 +17,7 @@ namespace {
 
 using enum OptionId;
 
-/// 1, 2 or 5 times a power of ten, at most 20 multiples of which span the relief.
+/// 1, 2 or 5 times a power of ten, with at most 20 multiples in the relief.
 double round_interval(const Mesh& mesh) {
   double low = 0, high = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -33,7 +33,7 @@ double round_interval(const Mesh& mesh) {
   return 10 * power;
 }
 
-/// Shows the GLB files of this run, or the mesh as one.
+/// Adds a page with the GLB files of this run, or with its mesh as GLB.
 Result<void> add_page(const SimplifyPlan& plan, const OwnedHeightField* field, SimplifyRun& run,
                       std::vector<ReadyFile>& files) {
   std::vector<PageMesh> meshes;

@@ -10,9 +10,9 @@ namespace scarp::cli {
 
 struct Runner {
   ProgressCallback progress;
-  /// Polled by slow efforts after on_keeping(): true if the mesh so far is sufficient. May be empty.
+  /// Slow efforts call it after on_keeping(). True if the present mesh is sufficient. May be empty.
   std::function<bool()> is_enough = {};
-  /// Called once a mesh keeps the promise. May be empty.
+  /// Called once a mesh satisfies the bound. May be empty.
   std::function<void()> on_keeping = {};
   /// May change the read options before inputs are read. May be empty.
   std::function<void(ReadOptions&)> on_plan = {};

@@ -61,7 +61,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   metadata["error"] = error.dump();
 }
 
-/// Draws the approximation in its colours, then compared with the image, or as a hillshade.
+/// Draws the approximation in its colours, which are compared with the image, or as a hillshade.
 Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
   const Picture rendered = draw_gouraud(outcome.field, outcome.simplified.mesh);
   if (!outcome.channels.empty()) outcome.psnr = find_psnr(rendered, draw_channels(outcome.channels.bands));
@@ -75,7 +75,7 @@ Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::
   return add_picture(*plan.preview, picture, files);
 }
 
-/// Writes rows as `make` delivers them.
+/// A file whose rows are written as `make` delivers them.
 Result<std::shared_ptr<RasterFile>> write_rows(
     const SimplifyPlan& plan, const std::string& path, const Outcome& outcome,
     const std::function<Result<void>(const std::function<void(int row, std::span<const float> values)>& on_row)>&
@@ -162,7 +162,7 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
   return encode_raster({heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
-/// True if OUTPUT needs samples besides the mesh.
+/// True if OUTPUT needs samples in addition to the mesh.
 bool reads_samples(const SimplifyPlan& plan) {
   return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
 }
@@ -228,7 +228,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.given.first_of({kMaterials, kNodeStrings}))
     outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
-  // They may need more memory than the mesh and its file.
+  // Samples may need more memory than the mesh and its file.
   if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   const auto encode = [&](ReadyFile& file) -> Result<void> {

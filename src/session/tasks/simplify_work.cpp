@@ -33,7 +33,7 @@ using enum OptionId;
 
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
-/// Bytes of vector files, besides the raster's.
+/// Bytes of vector files, in addition to the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
   const auto file = plan.given.first_of({kBreaklines, kWater, kRivers, kMaterials, kNodeStrings, kCutline, kRoi});
   return file ? kVectorBytes : 0;
@@ -149,7 +149,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   return {};
 }
 
-/// OBJ cannot hold channels other than colours: an image would lose its bound, a texture its values.
+/// OBJ cannot hold channels other than colours: an image would lose its bound, and a texture its values.
 Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channels) {
   const bool is_obj = plan.format.is_mesh() && plan.format.mesh == MeshFormat::kObj;
   if (!is_obj || channels.empty() || channels.are_colors()) return {};
@@ -163,14 +163,15 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
-/// Records a judgement beyond simplify()'s own proof.
+/// Records the time of a judgement in addition to simplify()'s own proof.
 void add_judging(Clock::time_point start, Outcome& outcome) {
   const double seconds = seconds_since(start);
   outcome.simplified.passes.push_back({"judge", seconds});
   outcome.simplified.seconds_measure += seconds;
 }
 
-/// simplify() reports the largest errors over all samples; if some are ignored, this finds those of the others.
+/// simplify() reports the largest errors of all samples. If some are ignored, this finds the largest errors of the
+/// others.
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
@@ -221,8 +222,8 @@ Result<void> check_promise(const Outcome& outcome) {
   return fail(ErrorKind::kPromise, kBroken + format_plural(measured.uncovered, "sample") + " without a triangle");
 }
 
-/// simplify() omits the topology if it holds by construction, but a report contains only what was checked. A print is
-/// judged as a whole: its proof covered the terrain.
+/// simplify() does not check a topology that is valid by construction, but a report contains only checked facts. A
+/// print is judged as a whole: its proof covered the terrain.
 Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan& plan, Outcome& outcome) {
   MeasureOptions options;
   options.cutline = outcome.cut.judged();
@@ -256,7 +257,7 @@ Result<Simplified> simplify_as_levels(const SimplifyPlan& plan, const SimplifyOp
   return std::move(levels->front());
 }
 
-/// simplify_for_print() with errors in terms of options.
+/// simplify_for_print(), whose errors name options.
 Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
                                          const SimplifyOptions& options) {
   if (plan.is_split() && !field.frame.is_affine()) {
@@ -285,7 +286,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   if (!plan.solid) return simplify(outcome.view(), options);
   SCARP_TRY(PrintedTerrain printed, simplify_as_print(*plan.solid, outcome.field, options));
   outcome.print = std::move(printed.print);
-  // The mesh may be smaller than the samples, and its print at a larger scale than estimated.
+  // The mesh may be smaller than the samples' extent, and its print at a larger scale than estimated.
   if (plan.solid->max_error && outcome.asked)
     outcome.asked = std::min(*outcome.asked, *plan.solid->max_error / outcome.print->placement.scale[2]);
   return std::move(printed.simplified);
@@ -322,7 +323,7 @@ Result<void> make_mesh(const GivenOptions& given, SimplifyPlan& plan, const Runn
   SCARP_RETURN_IF_ERROR(check_frame_of_lines(find_lines(plan.given) ? name_of(*find_lines(plan.given)) : "", frame,
                                              plan.read.crs, plan.input));
   SimplifyOptions options = plan.simplify;
-  // Filled nodata differs on both sides of an edge.
+  // Nodata is filled differently on both sides of a shared edge.
   if (options.output.normals && options.domain.border.is_locked && plan.policy == NodataPolicy::kHole) {
     const OwnedHeightField& field = outcome.field;
     SCARP_TRY(options.domain.border.beyond,

@@ -1,4 +1,4 @@
-// A script that submits a plan to SLURM: an array of shares, then a job that joins them.
+// A script that submits a plan to SLURM: an array of jobs for shares, then a job that joins them.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ struct MadeTiles {
 /// Fails with kUsage for a set that the container cannot describe.
 Result<void> check_container(const TileJob& job, const std::string& output);
 
-/// Makes the set under its final name, or nothing. Updates the tile counts meanwhile.
+/// Makes the set under its final name, or no set. Updates the tile counts meanwhile.
 Result<MadeTiles> make_tiles(const GivenOptions& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts);
 

@@ -8,7 +8,7 @@
 
 namespace scarp::cli {
 
-/// Reads the surfaces, brings them into one frame, and measures. kInput for surfaces without area in common.
+/// Reads the surfaces, brings them into one frame, and measures. kInput for surfaces without common area.
 Result<void> compare_surfaces(const GivenOptions& given, const Runner& runner, ComparedSurfaces& compared);
 
 }  // namespace scarp::cli

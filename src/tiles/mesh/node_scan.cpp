@@ -1,5 +1,5 @@
-// Corners of triangles are multiples of the tile's units, nodes multiples of 1 / steps of a side. As multiples of 1 /
-// (units · steps) all are integers, and the edge functions are exact in 64 bits.
+// Corners of triangles are multiples of the tile's units, and nodes are multiples of 1 / steps of a side. All are
+// integers as multiples of 1 / (units · steps), and the edge functions are exact in 64 bits.
 #include "tiles/mesh/node_scan.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t kLanes = 4;
 
-/// A point in such multiples, y to the south. Two neighbouring nodes are `units` multiples apart.
+/// A point in multiples of 1 / (units · steps), y to the south. Two neighbouring nodes are `units` multiples apart.
 struct UnitPoint {
   std::int64_t x = 0, y = 0;
 };

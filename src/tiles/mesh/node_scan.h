@@ -15,8 +15,8 @@ struct NodeErrors {
   std::uint64_t uncovered = 0;  ///< nodes in no triangle
 };
 
-/// Integers decide which nodes lie in a triangle, its sides included: none is missed between neighbours. REQUIRES:
-/// triangles are positive. Cost: some nanoseconds a node, and a hundred a triangle.
+/// Scans the nodes in each triangle, including its sides. Integer arithmetic ensures that no node between neighbours is
+/// missed. REQUIRES: triangles are positive. Cost: some nanoseconds per node, and a hundred per triangle.
 NodeErrors scan_nodes(const TerrainTile& tile, const TileNodes& nodes, double limit);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Compares a tile with the samples of its source at their places between the nodes.
+// Compares a tile with the samples of its source, which are between the nodes.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct SampleVerdict {
   std::vector<FarPoint> far_points;  ///< worst sample of each triangle beyond the limit
 };
 
-/// Ignores samples in a cell with a node that has no height. `nodes`: of the tile. Fails as the source does.
+/// Ignores samples in a cell with a node that has no height. `nodes`: the tile's nodes. Fails like the source.
 Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& grid, const TileNodes& nodes,
                                        const NodeSource& source,
                                        double limit = std::numeric_limits<double>::infinity());

@@ -19,13 +19,13 @@ std::int32_t quanta_of(double height, double quantum);
 
 /// The nodes of an edge in order.
 struct EdgeNodes {
-  std::vector<float> heights;   ///< none missing
+  std::vector<float> heights;   ///< without missing ones
   std::vector<double> places;   ///< along the edge, as clients subdivide it
   std::vector<double> decoded;  ///< places of vertices at the nodes, as clients decode them
 };
 
 /// The nodes of an edge that become vertices, ascending: the ends, each node that begins a segment of the level, and as
-/// few others as possible. Every node lies within the level's max error of the line through the vertices as clients
+/// few others as possible. Every node is within the level's max error of the line through the vertices as clients
 /// decode them. `forced`: further vertices in any order.
 std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level,
                                                std::span<const std::int32_t> forced = {});

@@ -66,7 +66,7 @@ void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t 
   for (std::int64_t at = (floor_of(from, cells) + 1) * cells; at < to; at += cells) {
     if (at == a[axis] || at == b[axis]) continue;
     const std::int64_t share = way * (at - a[axis]);
-    // The nearest node on the edge; for ties the one farther south or east.
+    // The nearest node on the edge; of two equally near ones, the one farther south or east.
     const Int128 up = 2 * Int128{b[other] - a[other]} * share + whole, down = 2 * Int128{whole};
     const Int128 rounded = up / down - (up % down < 0 ? 1 : 0);
     Crossing crossing{{}, share, whole};
@@ -165,13 +165,13 @@ class LevelLines {
     }
   }
 
-  /// Adds the step to the tile that contains both ends. Skips steps along an edge, which outlines of tiles include.
+  /// Adds the step to the tile that contains both ends. Skips steps along an edge, which the outlines of tiles include.
   void add_step(const Node& a, const Node& b) {
     if (a == b) return;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       if (a[axis] == b[axis] && a[axis] % cells_ == 0) return;
     }
-    // The tile of the middle, which lies on no edge; computed from the doubled middle.
+    // The tile of the step's middle, which is on no edge; computed from the doubled middle.
     const std::int64_t column = floor_of(a[0] + b[0], 2 * cells_), row = floor_of(a[1] + b[1], 2 * cells_);
     const auto local = [&](const Node& node) {
       return std::array<std::int64_t, 2>{node[0] - column * cells_, node[1] - row * cells_};

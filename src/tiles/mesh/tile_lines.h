@@ -2,7 +2,7 @@
 //
 // A level has its own lattice for lines, `cells` steps a tile. A line is simplified to half a step, and its vertices
 // are moved to the nearest lattice nodes. Where it crosses an edge between tiles, the nearest node on the edge becomes
-// a vertex. All this depends only on the line and the level: both tiles have the same vertex on their edge.
+// a vertex. All this depends only on the line and the level, so both tiles have the same vertex on their edge.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ class TileLines {
     EdgeVertices edges;                      ///< nodes that must be vertices, ascending, each once
   };
 
-  /// Builds the lines of levels 0 … max_zoom. `covered`: lines exist only there, and in neighbouring tiles down to the
-  /// block level.
+  /// Builds the lines of levels 0 … max_zoom. `covered`: the area of lines, with neighbouring tiles down to the block
+  /// level.
   TileLines(std::vector<DegreeLine> lines, const TileGrid& grid, int cells, int max_zoom, int block_level,
             const DegreeBox& covered);
 

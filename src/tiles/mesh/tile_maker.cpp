@@ -31,8 +31,8 @@ namespace {
 constexpr int kMeshTrials = 12;
 /// Lattice steps between nodes: vertices of lines lie anywhere, free ones on eighths.
 constexpr std::int32_t kParts = 256;
-/// Share of the max error for edges if samples are bound: only the edge's nodes decide its mesh, but samples lie next
-/// to it.
+/// Share of the max error for edges if samples are bound: only an edge's nodes determine its vertices, but samples are
+/// next to it.
 constexpr double kEdgeShare = 0.25;
 
 class TileMaker {
@@ -51,7 +51,7 @@ class TileMaker {
     if (paths_ != nullptr) is_left_out_.resize(paths_->steps.size());
   }
 
-  /// `max_error`: of the interior.
+  /// `max_error`: that of the interior.
   Result<TerrainTile> make(double max_error) {
     if (samples_.empty()) lay_edges();
     forced_.clear();
@@ -107,7 +107,7 @@ class TileMaker {
     return static_cast<std::size_t>(row - land_.top) * static_cast<std::size_t>(cols()) + static_cast<std::size_t>(col);
   }
 
-  /// Sets the samples for the engine: multiples of the quantum, on edges the edge lines.
+  /// Sets the samples for the engine: multiples of the quantum, and on edges the edge lines.
   void lay_edges() {
     samples_.resize(index(0, land_.bottom + 1));
     for (std::int32_t row = land_.top; row <= land_.bottom; ++row) {
@@ -163,8 +163,8 @@ class TileMaker {
     return static_cast<float>(level_.quantum * quanta_of(double{height}, level_.quantum));
   }
 
-  /// Forces nodes with too large errors to be vertices, and nodes around them: otherwise a needle may end there, tilted
-  /// by rounding its corner.
+  /// Forces nodes with too large errors, and nodes around them, to be vertices. Otherwise a needle may end there,
+  /// tilted by the rounding of its corner.
   void force_around(const std::vector<SampleAt>& nodes) {
     for (const auto& [col, row] : nodes) {
       for (std::int32_t y = std::max(row - 1, land_.top + 1); y <= std::min(row + 1, land_.bottom - 1); ++y) {
@@ -184,7 +184,7 @@ class TileMaker {
     return std::hypot(x - share * dx, y - share * dy);
   }
 
-  /// True if the node is off a line, but so close that a triangle between them would be a needle.
+  /// True if the node is not on a line, but so close to it that a triangle between them would be a needle.
   bool is_beside_line(std::int32_t col, std::int32_t row) const {
     for (std::size_t k = 0; k < is_left_out_.size(); ++k) {
       if (is_left_out_[k]) continue;

@@ -24,16 +24,18 @@ struct TileProof {
   TileCompletion complete;
 };
 
-/// The errors at the nodes themselves. If the grid's rows are uneven, the offenders are the worst of each triangle.
+/// The errors at the nodes themselves. If the grid's rows are uneven, the offenders are the worst nodes of each
+/// triangle.
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid);
 
-/// The proof of a tile at or below the plan's block level: at its nodes, and at the samples of its source. Borrows all.
+/// The proof of a tile at or below the plan's block level: at its nodes, and at the samples of its source. Borrows all
+/// arguments.
 TileProof proof_at_nodes(const PyramidPlan& plan, const TileNodes& nodes, const NodeSource& source);
 
-/// Makes a mesh of the nodes that satisfies the tile's max error if rounded positions can, else the one with the least
-/// error. That max error is the level's, doubled while the tile exceeds the plan's byte limit and its interior can have
-/// fewer vertices. Without an encoder there is no limit. Nodes without heights become a tile of the background, judged
-/// at fewer nodes; its edges match its neighbours'.
+/// Makes a mesh of the nodes that satisfies the tile's max error if rounded positions can, else the mesh with the least
+/// error. The tile's max error is that of the level, doubled while the tile exceeds the plan's byte limit and its
+/// interior can have fewer vertices. Without an encoder there is no limit. Nodes without heights become a tile of the
+/// background, judged at fewer nodes; its edges match its neighbours'.
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileProof& proof,
                               const TileEncoder& encode);
 

@@ -25,7 +25,7 @@ std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, c
     Space normal = axes.up;
     if (!window.is_pole(window.row + row)) {
       const Globe::Radii radii = ground.metres(latitude);
-      // Beyond the land the last nodes are repeated.
+      // The last nodes of the land are repeated outside.
       const double north_of = window.latitude(std::max(window.row + row - reach, land.first)),
                    south_of = window.latitude(std::min(window.row + row + reach, land.last));
       const std::int64_t west_of = std::max(window.col + col - reach, columns.first),

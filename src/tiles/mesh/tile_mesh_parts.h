@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// The node nearest to a place of 0 … `units` on a side of so many steps.
+/// The node nearest to a place of 0 … `units` on a side of `steps` steps.
 inline std::int32_t nearest_node(std::uint16_t place, std::int32_t steps, std::int32_t units) {
   return static_cast<std::int32_t>((std::int64_t{place} * steps * 2 + units) / (2 * std::int64_t{units}));
 }

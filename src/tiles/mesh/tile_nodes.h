@@ -20,18 +20,18 @@ struct NodeArea {
 
   friend bool operator==(const NodeArea&, const NodeArea&) = default;
 };
-/// The part with land of a tile with so many steps: the whole tile, unless a local grid's raster only partly covers it.
+/// The part with land of a tile with `steps` steps: the whole tile, unless a local grid's raster covers only a part.
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps);
 
-/// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row repeats.
+/// The nodes of a tile: steps + 1 a side, and `halo` more on each side. The last row repeats beyond the grid's ends.
 class TileNodes {
  public:
-  /// `steps`: of the tile's sides. Nodes without a height get the background's.
+  /// `steps`: those of the tile's sides. Nodes without a height have the background's height.
   static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
-  /// Nodes of the same height, with one more around. At least `least_steps` steps, more if needed to end where the land
-  /// ends.
+  /// Nodes of the same height, with one more around. At least `least_steps` steps; more if necessary to end at the end
+  /// of the land.
   static TileNodes flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps);
 
   std::int32_t steps() const { return steps_; }
@@ -53,11 +53,11 @@ class TileNodes {
     return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
            static_cast<std::size_t>(col + halo_);
   }
-  /// Nodes from a first column and row on, which is negative in the halo.
+  /// Nodes from a first column and row on, which are negative in the halo.
   struct Part {
     std::int32_t left = 0, top = 0, cols = 0, rows = 0;
   };
-  /// Gives the background's height to nodes of the part without one; nodes beyond it have none.
+  /// Sets the background's height at nodes of the part without a height; nodes outside have none.
   void fill_voids(std::span<float> heights, const Part& part, float background);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 

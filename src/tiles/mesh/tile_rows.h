@@ -11,7 +11,7 @@ namespace scarp {
 
 class TileRows {
  public:
-  /// `steps`: of nodes on the tile's sides. Rows go south.
+  /// `steps`: steps of nodes on the tile's sides. Rows go south.
   TileRows(const TileGrid& grid, TileId id, std::int32_t steps);
 
   std::int32_t steps() const { return steps_; }
@@ -22,7 +22,7 @@ class TileRows {
   std::int32_t above(double line) const;
   /// The row nearest to a vertex's v.
   std::int32_t nearest(std::uint16_t v) const;
-  /// v, 0 … grid.side_units() from the southern end, of a place `parts` of `per_step` steps north of it.
+  /// v, 0 … grid.side_units() from the southern end, of a place parts / per_step steps north of this end.
   std::uint16_t v_of(std::int64_t parts, std::int32_t per_step = 1) const;
 
  private:

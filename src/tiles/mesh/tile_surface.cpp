@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// A point within this distance · side length beyond a side still counts as inside. Rounding contributes 1e-7.
+/// A point at most this · side length beyond a side counts as inside. Rounding contributes 1e-7.
 constexpr double kSlack = 1e-6;
 /// Maximum number of triangles in a walk before all are scanned: on non-Delaunay meshes a walk may cycle.
 constexpr int kLongestWalk = 64;

@@ -1,7 +1,7 @@
 // The mesh of a tile and its error at rows of points.
 //
-// The points of a row lie closely on a straight line, so most lie in the triangle of the previous one: there the mesh's
-// height along the row is linear. Where the row leaves a triangle, a walk across edges finds the next one.
+// The points of a row are close together on a straight line, so most are in the triangle of the previous point, where
+// the mesh's height along the row is linear. At the end of a triangle, a walk across edges finds the next one.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct FarPoint {
 /// Largest |mesh − height| over points in a tile.
 class TileSurface {
  public:
-  /// True if a point counts: called only for points that would change the result.
+  /// True if a point counts. Called only for points that would change the result.
   using Counts = std::function<bool(double u, double v)>;
 
   /// REQUIRES: triangles are positive and cover the tile. `limit`: far_points() have a larger error.

@@ -5,7 +5,7 @@
 namespace scarp {
 namespace {
 
-/// Up to so many steps between wanted nodes, all nodes are read.
+/// If wanted nodes are at most this many steps apart, all nodes are read.
 constexpr std::int64_t kReadThrough = 64;
 
 }  // namespace

@@ -59,7 +59,7 @@ std::uint64_t HeldNodes::hash() const {
   for (std::int32_t j = 0; j < land_.rows; ++j) {
     const std::int64_t row = (land_.row - window_.row + j) * window_.cols + (land_.col - window_.col);
     for (std::int32_t i = 0; i < land_.cols; ++i, ++k) {
-      // Skipped, so that the hash does not depend on the number of held nodes without heights.
+      // These are skipped, so that the hash does not depend on the number of held nodes without heights.
       if (std::isnan(heights_[k])) continue;
       hash = (hash ^ bit_cast<std::uint32_t>(heights_[k]) ^ static_cast<std::uint64_t>(row + i) << 32) *
              0xff51afd7ed558ccd;

@@ -17,7 +17,7 @@ class LocalNodes final : public NodeSource {
   explicit LocalNodes(const HeightField& field) : field_(field) {}
 
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
-    // A node is every step-th sample; beyond the raster its outermost samples are repeated.
+    // Every step-th sample is a node. The outermost samples are repeated outside the raster.
     const std::int64_t step = window.grid.local.side / window.per_turn, bottom = window.last_row() * step;
     const auto column = [&](int i) {
       return static_cast<int>(std::clamp<std::int64_t>((window.col + i) * step, 0, field_.cols - 1));

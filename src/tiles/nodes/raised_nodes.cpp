@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Distance of places with exact zeros: between them the geoid is linear to less than a centimetre.
+/// Distance of places with exact zeros, between which the geoid is linear to less than a centimetre.
 constexpr double kAnchorDegrees = 1.0 / 32;
 /// Side of a box whose samples are raised at once.
 constexpr double kMostDegrees = 8;
@@ -34,7 +34,7 @@ class RaisedNodes final : public NodeSource {
     for (std::int64_t j = 0; j < down; ++j) {
       for (std::int64_t i = 0; i < across; ++i) {
         const std::int64_t row = std::min((first_y + j) * step, window.last_row());
-        // A pole is one place.
+        // A pole is one place at all longitudes.
         xs.push_back(window.longitude(window.is_pole(row) ? 0 : (first_x + i) * step));
         ys.push_back(window.latitude(row));
       }

@@ -13,16 +13,16 @@ namespace scarp {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-/// Places on the raster are multiples of this part of a cell: a node on a sample hits it exactly.
+/// Places on the raster are multiples of 1 / kPlaceSteps of a cell, so that a node on a sample is exactly there.
 constexpr double kPlaceSteps = 0x1p20;
 /// Node steps between exact places on the raster.
 constexpr int kAnchorSteps = 16;
 
-/// A place along one axis of the raster: the sample before it, and the weights of the four samples around it.
+/// A place along one axis of the raster, as the weights of the four samples around it.
 struct Taps {
   std::int64_t first = 0;  ///< sample of weights[0]; the place lies between the second and third sample
   std::array<double, 4> weights{};
-  double part = 0;  ///< position between them, 0 … 1
+  double part = 0;  ///< position between these two, 0 … 1
 };
 
 Taps taps_at(double place) {
@@ -72,7 +72,7 @@ class Part {
   int cols_ = 0;
 };
 
-/// Bilinear interpolation of the valid ones of four samples; nodata if the nearest is.
+/// Bilinear interpolation of the valid ones of four samples; nodata if the nearest sample is.
 float bilinear(const float* upper, const float* lower, double tx, double ty) {
   const std::array<float, 4> samples{upper[0], upper[1], lower[0], lower[1]};
   const std::array<double, 4> weights{(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty};
@@ -134,7 +134,7 @@ class RasterNodes final : public NodeSource {
     int count() const { return static_cast<int>(last - first + 1); }
   };
 
-  /// Column of the raster at a longitude: of all turns the one on the raster, or nearest after its start.
+  /// Column of the raster at a longitude. Of all turns, the column on the raster, or the nearest one after its start.
   double column_of(double longitude_degrees) const {
     const double cell = place_.affine[1], turn = 360 / std::abs(cell);
     double place = (longitude_degrees - place_.affine[0]) / cell;
@@ -152,7 +152,7 @@ class RasterNodes final : public NodeSource {
     }
     if (x.count() > 2 * window.cols * std::max(1.0, spacing(window)) + 64) return read_in_halves(window, out);
     SCARP_TRY(auto&& part, Part::read(field_, x.first, y.first, x.count(), y.count(), turn_));
-    // Interpolates along rows of samples, of which four are held, then across them to a row of nodes.
+    // Interpolates along rows of samples, of which four are held, then across these to a row of nodes.
     std::array<std::vector<double>, 4> between;
     std::array<std::int64_t, 4> held{-1, -1, -1, -1};
     for (auto& one : between) one.resize(static_cast<std::size_t>(window.cols));
@@ -241,7 +241,7 @@ class RasterNodes final : public NodeSource {
       const std::int64_t down = before(window.row + window.rows - 1) + 2 - first_y_;
       for (std::int64_t j = 0; j < down; ++j) {
         for (std::size_t i = 0; i < across_; ++i) {
-          // Beyond the pole uses the pole's place: no node lies there.
+          // Beyond a pole, where no node is, uses the pole's place.
           const std::int64_t row = std::min((first_y_ + j) * kAnchorSteps, window.last_row());
           xs_.push_back(window.longitude((first_x_ + static_cast<std::int64_t>(i)) * kAnchorSteps));
           ys_.push_back(window.latitude(row));
@@ -331,7 +331,7 @@ class RasterNodes final : public NodeSource {
     return {};
   }
 
-  /// A pole is one place: all its nodes have the height of the one at 180° W.
+  /// A pole is one place: all its nodes have the height of its node at 180° W.
   Result<void> level_poles(const NodeWindow& window, std::span<float> out) const {
     for (int j = 0; j < window.rows; ++j) {
       const std::int64_t row = window.row + j;

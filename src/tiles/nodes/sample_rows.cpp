@@ -15,7 +15,7 @@ constexpr int kAnchorSamples = 16;
 constexpr int kRowSamplesTogether = 1 << 20;
 /// Places per direction that are examined to find the raster's part in a box.
 constexpr int kLooks = 33;
-/// Closer to the poles, meridians are not parallel enough.
+/// Nearer to a pole, meridians are not parallel enough.
 constexpr double kStraightLatitude = 85;
 
 double nearest_turn(double degrees, double to) { return degrees - 360 * std::floor((degrees - to) / 360 + 0.5); }
@@ -141,7 +141,7 @@ Result<void> SampleRows::visit_placed(const DegreeBox& box, const SampleVisitor&
       if (std::isfinite(apart)) step = std::max(step, apart);
     }
   }
-  // Between examined places the raster may reach farther, by less than their distance.
+  // Between examined places, the raster may reach farther by less than the places' distance.
   reach.grow(step);
   const Window window = window_over(reach);
   if (window.is_empty()) return {};

@@ -8,7 +8,7 @@ namespace scarp {
 
 class SampleRows {
  public:
-  /// Borrows both.
+  /// Borrows `field` and `place`.
   SampleRows(const HeightField& field, const RasterPlace& place);
 
   /// Like NodeSource::visit_samples(), for a raster in degrees; `turn` is added to x.

@@ -48,8 +48,8 @@ void cut(Piece& piece, double Corner::*coordinate, double limit, double sign, Pi
   piece.swap(scratch);
 }
 
-/// Extremes of mesh − surface on a piece in a cell. They lie at its corners, or along sides where the slopes of both
-/// agree; never inside, as the surface is a saddle.
+/// Extremes of mesh − surface on a piece in a cell. They are at its corners, or along sides where both slopes are
+/// equal; never inside, because the surface is a saddle.
 struct Extremes {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -59,7 +59,7 @@ struct Extremes {
   }
 };
 
-/// `north`, `height`: of the cell.
+/// `north`, `height`: those of the cell.
 Extremes extremes(const Piece& piece, const Corners& surface, std::int32_t col, double north, double height) {
   Extremes found;
   const double bend = surface.nw - surface.ne - surface.sw + surface.se;
@@ -155,7 +155,7 @@ CoarseTile CoarseTile::flat(float height) {
 CoarseTile CoarseTile::join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children) {
   CoarseTile tile;
   const TileRows rows(grid, id, 2 * kCoarseCells);
-  // A local grid's raster may end on the border of two tiles, the second of which does not exist.
+  // A local grid's raster may end on the border of two tiles, and then the second tile does not exist.
   const bool has_north = grid.has({id.z + 1, 2 * id.x, 2 * id.y + 1});
   const auto child_of = [&](std::int32_t& col, std::int32_t& row, std::int32_t last) {
     std::size_t which = 0;
@@ -238,7 +238,7 @@ const CoarseTile& CoarseLevel::at(std::uint32_t x, std::uint32_t y) const {
 
 Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) const {
   const std::int64_t down = window.grid.rows(z_), turn = std::int64_t{window.grid.columns(z_)} * kCoarseCells;
-  // Beyond a local grid's land the last nodes are repeated.
+  // The last nodes of a local grid's land are repeated outside.
   const NodeRange columns = window.grid.land_columns(turn), rows = window.grid.land_rows(turn);
   const std::int64_t last_column = (columns.last - 1) / kCoarseCells;
   for (int j = 0; j < window.rows; ++j) {

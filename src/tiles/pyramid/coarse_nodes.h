@@ -1,13 +1,13 @@
 // Nodes above the blocks: decimated, with error bounds for each cell.
 //
 // A coarse tile holds 128 × 128 cells. Each cell bounds the distance of the source's nodes in it below and above the
-// bilinear surface between its corners. Bilinear means in degrees, as triangles are planes in degrees, whatever the
-// spacing of rows. Four coarse tiles become one of the level above by omitting every second node. The difference of
-// both bilinear surfaces is bilinear too, so its extremes are at corners, and bounds add up. If the sum exceeds the
-// range of heights in the cell, the range is used.
+// bilinear surface between its corners. Bilinear means bilinear in degrees, because triangles are planes in degrees for
+// any spacing of rows. Four coarse tiles become one tile of the level above, without every second node. The difference
+// of the bilinear surfaces of both levels is also bilinear, so its extremes are at corners, and bounds add up. If the
+// sum exceeds the range of heights in the cell, the range is used.
 //
-// The source's samples lie between the nodes and may exceed the bounds of a cell's nodes. One number bounds the excess,
-// over the surface as well as the range of heights; a joined cell has the largest of its parts.
+// The source's samples lie between the nodes and may exceed the bounds of a cell's nodes. One number bounds the excess
+// over the surface and over the range of heights; a joined cell has the largest number of its parts.
 #pragma once
 
 #include <array>
@@ -40,8 +40,8 @@ struct Corners {
 
 class CoarseTile {
  public:
-  /// Reduces the nodes of a tile, a multiple of kCoarseCells a side, and the samples of `source` in it. Fails as the
-  /// source does.
+  /// Reduces the nodes of a tile, a multiple of kCoarseCells a side, and the samples of `source` in it. Fails like the
+  /// source.
   static Result<CoarseTile> reduce(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
                                    const NodeSource& source);
   /// A tile without heights.

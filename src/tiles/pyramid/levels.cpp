@@ -21,29 +21,29 @@ constexpr double kPi = 3.141592653589793;
 constexpr int kBlockDepth = 5;
 /// Usual lower limit of max error / quantum.
 constexpr double kQuantaOfError = 32;
-/// Absolute lower limit: heights are rounded to the quantum, which uses part of the error.
+/// Absolute lower limit: the rounding of heights to the quantum uses a part of the error.
 constexpr double kLeastQuantaOfError = 4;
 /// Smallest quantum on a globe, in metres: finer heights are noise, and 2²⁴ quanta hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
 /// Quanta that quantized-mesh holds in a tile.
 constexpr double kQuantaOfTile = 32767;
-/// Quanta that a float32 holds exactly: engine and GLB store heights in quanta.
+/// Quanta that a float32 holds exactly. The engine and GLB store heights in quanta.
 constexpr double kQuantaOfFloat = 0x1p24;
 /// Cubic interpolation exceeds the samples by at most this share of their range on either side.
 constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
 constexpr double kSpacing = 1.1;
-/// Largest distance of heights from the ellipsoid in metres: on the earth, where larger heights are undeclared nodata,
+/// Largest distance of heights from the ellipsoid in metres, on the earth, where larger heights are undeclared nodata,
 /// and on planets with higher mountains.
 constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
 /// Limit on a local grid, whose heights may have any unit.
 constexpr double kHighestLocal = 1e6;
 
-/// Its largest relief in cells: 24 bits hold it in eighths of a cell.
+/// Largest relief of a local grid in cells: 24 bits hold it in eighths of a cell.
 constexpr double kSteepest = 0x1p20;
 
-/// Segments of an edge, so short that the sag is at most an eighth of the geometric error.
+/// Number of segments of an edge, so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z, const TileGrid& grid) {
   if (grid.is_flat()) return 1;
   const int halves = z + std::countr_zero(grid.roots());  // number of halves of a whole turn
@@ -68,7 +68,7 @@ std::optional<DegreeBox> part_on(const TileGrid& grid, const DegreeBox& box) {
   return DegreeBox{box.west, std::max(box.south, all.south), box.east, std::min(box.north, all.north)};
 }
 
-/// True if each row of nodes of a block has a distinct v: on some grids rows crowd at its ends.
+/// True if each row of nodes of a block has a distinct v. On some grids, rows crowd at a block's ends.
 bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
   const TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
   for (std::int32_t row = 0; !rows.are_even() && row < steps; ++row) {
@@ -97,7 +97,7 @@ int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, co
 class Quanta {
  public:
   Quanta(double low, double high, bool is_flat) : low_(low), high_(high), is_flat_(is_flat) {
-    // A tile must hold its relief, here that of the whole source.
+    // A tile must hold its relief, which is at most that of the whole source.
     const double room = (high - low) / kQuantaOfTile;
     if (room > 0) compact_ = 2 * power_of_two_below(room);
     least_ = std::max(kLeastQuantum, compact_);
@@ -111,7 +111,7 @@ class Quanta {
   /// REQUIRES: a max error of least_error() or more.
   double of(double max_error) const {
     const double fine = std::max(power_of_two_below(max_error / kQuantaOfError), least_);
-    // GLB holds any relief, but needs fewer bytes with few quanta.
+    // GLB holds any relief, but needs fewer bytes for few quanta.
     return std::max(fine, std::min(compact_, power_of_two_below(max_error / kLeastQuantaOfError)));
   }
   Result<void> check(double max_error, int level) const {

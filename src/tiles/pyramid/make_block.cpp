@@ -20,7 +20,7 @@
 namespace scarp {
 namespace {
 
-/// All nodes of a block and around it, read by all threads; nothing without heights.
+/// All nodes in and around a block, read by all threads; nothing if none has a height.
 Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
                                             int threads) {
   if (!is_covered(plan, block)) return std::optional<HeldNodes>();

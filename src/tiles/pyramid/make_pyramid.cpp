@@ -1,4 +1,4 @@
-// Makes all tiles: block by block, then the levels above from what the blocks passed up.
+// Makes all tiles: block by block, then the levels above from the blocks' coarse tiles.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -26,7 +26,7 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
     source_error = verdict.source_error;
     return TileVerdict{verdict.node_error, {}};
   };
-  // Between flat nodes there may be land.
+  // Land may be between flat nodes.
   const std::array<TileId, 4> children = children_of(id);
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });

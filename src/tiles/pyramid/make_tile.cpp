@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// Accepts the first mesh without folds, whatever its error: finish_pyramid() has no other choice.
+/// Accepts the first mesh without folds, whatever its error, since finish_pyramid() has no other.
 TileProof no_proof() {
   return {[](const TerrainTile&) -> Result<TileVerdict> {
             return TileVerdict{0, {}};

@@ -38,7 +38,7 @@ std::uint64_t place_on_curve(TileId id) {
 }  // namespace
 
 int finest_level(const PyramidPlan& plan, TileId id) {
-  // A margin on each side: heights on a border, or within the reach of normals, count on both of its sides.
+  // A margin on each side: heights on a border, or within the reach of normals, count on both sides of the border.
   const double node = (normal_reach(steps_of(plan, plan.block_level)) + 1) *
                       plan.grid.largest_step(plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const DegreeBox box = plan.grid.bounds_of(id);

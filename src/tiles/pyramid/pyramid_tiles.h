@@ -14,7 +14,7 @@ namespace scarp {
 /// Tiles of one level by row, then column.
 using TileSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// True if the source may have a height in the tile, or near enough to affect its normals.
+/// True if the source may have a height in the tile, or near enough to affect the tile's normals.
 bool is_covered(const PyramidPlan& plan, TileId id);
 
 /// True if a source requires the tile's level there, or the plan needs the tile as a sibling.

@@ -97,7 +97,7 @@ class Below final : public HeightZero {
   std::shared_ptr<const HeightZero> zero_;
 };
 
-/// Places lines on the lattice, those of one polygon together, in the turn that the source covers.
+/// Places lines on the lattice, the rings of a polygon together, in the turn that the source covers.
 class Placing {
  public:
   explicit Placing(const TileWaters& waters)
@@ -110,7 +110,7 @@ class Placing {
     for (Line& line : lines) {
       SCARP_RETURN_IF_ERROR(go_on(line));
     }
-    // Holes lie in the turn of the ring around them.
+    // Holes are in the turn of the ring around them.
     const double first = lines.front().points.front()[0];
     for (Line& line : lines) move(line, -360 * std::floor((line.points.front()[0] - first + 180) / 360));
     const double turn = find_turn(lines);

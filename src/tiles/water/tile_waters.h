@@ -1,6 +1,6 @@
-// Lakes and rivers in pyramids of tiles. Polygons, lines and water levels, determined once before any tile is made,
-// define the water nodes of the finest lattice. Every node thus depends on its place alone, and tiles agree about a
-// lake across their borders.
+// Lakes and rivers in pyramids of tiles. Polygons, lines and water levels, which are determined before any tile is
+// made, define the water nodes of the finest lattice. So every node depends only on its place, and a lake is the same
+// on both sides of a border of tiles.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ struct TileRiver {
 struct TileWaters {
   std::vector<TileLake> lakes;  ///< a node in several lakes belongs to the last
   std::vector<TileRiver> rivers;
-  DegreeBox covered = {};     ///< by the source: nodes outside have no heights
+  DegreeBox covered = {};     ///< cover of the source: nodes outside have no heights
   TileGrid grid = {};         ///< grid of the lattice
   std::int64_t per_turn = 0;  ///< nodes of the lattice per turn: NodeWindow::per_turn
 };
@@ -48,8 +48,8 @@ struct WaterLines {
 
 /// Computes levels of lakes and profiles of rivers on the plan's finest lattice, like find_lakes() and carve_rivers().
 /// Levels are relative to `zero` (null: the ellipsoid), so water follows the geoid. Profiles are within half of the
-/// finest level's max error of the exact ones. `covered`: by the source. An edge of a ring longer than half a turn
-/// follows the short way. Fails as the source does, and with kUsage for a percentile out of range, a polygon around a
+/// finest level's max error of the exact ones. `covered`: the cover of the source. An edge of a ring longer than half a
+/// turn follows the short way. Fails like the source, and with kUsage for a percentile out of range, a polygon around a
 /// pole, and more nodes in a row than lines can count. Cost: reads the nodes along shores and rivers.
 Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& nodes,
                                     const std::shared_ptr<const HeightZero>& zero, const DegreeBox& covered,

@@ -13,8 +13,8 @@
 namespace scarp {
 namespace {
 
-constexpr int kMaskSide = 256;  ///< texels, as quantized-mesh has them
-constexpr int kMaskParts = 4;   ///< places a texel in each direction
+constexpr int kMaskSide = 256;  ///< texels, as in quantized-mesh
+constexpr int kMaskParts = 4;   ///< places per texel in each direction
 constexpr int kMaskPlaces = kMaskSide * kMaskParts;
 
 /// The places of a tile inside polygons.
@@ -30,7 +30,7 @@ class MaskPlaces {
       rows_.push_back(nodes.row(box.north + (box.south - box.north) * ((j + 0.5) / kMaskPlaces)));
   }
 
-  /// Adds a lake by the even-odd rule, shifted by so many columns.
+  /// Adds a lake by the even-odd rule, shifted by `shift` columns.
   void add(const TileLake& lake, double shift) {
     crossings_.resize(kMaskPlaces);
     for (auto& row : crossings_) row.clear();

@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Points of a river are at most this part of a node apart.
+/// Points of a river are at most 1 / kStepsPerNode of a node apart.
 constexpr double kStepsPerNode = 4;
 
 }  // namespace

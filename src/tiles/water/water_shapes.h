@@ -35,7 +35,7 @@ class NodesAround {
 
 /// Coordinates are columns and rows of the lattice.
 std::vector<Line> lines_of(const TileLake& lake);
-/// Nothing outside the source, or for a lake with more nodes in a row than lines can count.
+/// The box of a lake; nothing outside the source, or if the lake has more nodes in a row than lines can count.
 std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters);
 
 /// Maps nodes of a box, counted from its first, to columns and rows of the lattice.
@@ -51,7 +51,7 @@ struct RiverNode {
   std::int64_t row = 0, col = 0;
   float height = 0;
 };
-/// Sorted by rows, each once, with the lowest height of the river near it.
+/// The nodes of a river, sorted by rows, each once, with the lowest height of the river nearby.
 std::vector<RiverNode> nodes_of(const TileRiver& river);
 
 }  // namespace scarp

@@ -19,7 +19,7 @@ constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 /// Nodes a side of a box whose samples are examined at once.
 constexpr double kMostNodesAtOnce = 1024;
 
-/// The water that claims a node. The greatest claim wins.
+/// The kind of water that claims a node. The greatest claim wins.
 enum class Claim : std::uint8_t { kNone, kRim, kRiver, kLake };
 
 std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -floor_of(-a, b); }

@@ -157,8 +157,8 @@ def simplify_points(points: Any, max_error: float | str | None = None, *, max_tr
     points with that height, and those without a finite height, are omitted. `crs` and `frame`: as in simplify();
     degrees become metres from the middle of the points. `boundary="concave:50"`: the mesh ends at a concave hull, with
     edges at most 50 long where the points allow it. Of a LAS or LAZ file, `class_="ground,water"` and `returns="last"`
-    choose points. `tolerance`: (N,) bounds for the points, besides max_error, at least 0; infinity: none. Or the file
-    of a raster.
+    choose points. `tolerance`: (N,) bounds for the points, in addition to max_error, at least 0; infinity: none. Or
+    the file of a raster.
     """
     out = C.c_void_p()
     lib = _abi.lib
@@ -250,7 +250,7 @@ def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, tra
     points, and if its shape is (N, 3), unless the mesh was made from an array of that shape. With transform, nodata,
     mask or tolerance of two dimensions it is a raster. `points`, True or False, overrides this. `mesh`: a Mesh, or
     (N, 3) vertices with (M, 3) triangles. `fail_above=1.5` raises PromiseError if the error of a sample is larger. Other
-    options as those of `scarp measure`: `cutline`, `script` ... Returns a Report.
+    options are those of `scarp measure`: `cutline`, `script` ... Returns a Report.
     """
     if triangles is not None:
         mesh = Mesh.from_arrays(mesh, triangles)
@@ -297,9 +297,9 @@ def _surface(given: Any) -> Mesh:
 def volume(before: Any, after: Any, *, threads: int = 0, progress: ProgressArgument = None) -> Volumes:
     """The volumes of cut and fill from the ground before to the ground after, exact for the triangles of both.
 
-    `before` and `after`: a Mesh, the path of one, or one of them a number, a level. Meshes are compared in the frames
-    that their metadata name. Volumes are in the units of x, y and z. Raises InputError for meshes without area in
-    common, solids, and triangles that stand upright, face down or overlap. Returns Volumes.
+    `before` and `after`: a Mesh or the path of one; one of them may be a number, a level. Meshes are compared in the
+    frames that their metadata name. Volumes are in the units of x, y and z. Raises InputError for meshes without common
+    area, solids, and triangles that stand upright, face down or overlap. Returns Volumes.
 
     >>> y, x = np.mgrid[0:50, 0:80]
     >>> hill = scarp.simplify(10.0 * np.exp(-((x - 40) ** 2 + (y - 25) ** 2) / 200), 0.01)

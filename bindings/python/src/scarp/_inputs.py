@@ -173,7 +173,7 @@ def _check_shape(shape: tuple[int, ...]) -> None:
 
 
 def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
-    """The samples as C-contiguous float32 (not copied if they are that), and the largest rounding."""
+    """The samples as C-contiguous float32 (not copied if they already are), and the largest rounding."""
     mask = np.ma.getmask(z) if isinstance(z, np.ma.MaskedArray) else np.ma.nomask
     if isinstance(z, np.ma.MaskedArray):
         z = z.data
@@ -217,7 +217,7 @@ def _rounding_of_integers(np: Any, given: Any) -> float:
 
 
 def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
-    """Rows, columns and the address of float32 samples in an object with the buffer protocol, for use without numpy."""
+    """Rows, columns and address of float32 samples in an object with the buffer protocol, for use without numpy."""
     try:
         view = memoryview(z)
     except TypeError:

@@ -57,7 +57,7 @@ def numpy_if_there() -> Any:
 
 
 def unpack(values: Any, voids: Any, scale: Any, offset: Any) -> tuple[Any, Optional[float]]:
-    """Heights from packed values, and the remaining nodata value."""
+    """Unpacks heights; returns them and the remaining nodata value."""
     np = numpy_if_there()
     scale, offset = float(1 if scale is None else scale), float(0 if offset is None else offset)
     voids = {float(void) for one in voids if one is not None for void in np.ravel(one) if void == void}

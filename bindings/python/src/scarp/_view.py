@@ -31,7 +31,7 @@ def _read_template() -> str:
 
 
 def _affine(field: Any, to_source: Optional[list[float]]) -> list[float]:
-    """From column and row of a sample's centre to x and y of the mesh."""
+    """Maps column and row of a sample's centre to x and y of the mesh."""
     g = list(field.geotransform) if field.frame else [-0.5, 1.0, 0.0, field.rows - 0.5, 0.0, -1.0]
     source = [g[0] + (g[1] + g[2]) / 2, g[1], g[2], g[3] + (g[4] + g[5]) / 2, g[4], g[5]]
     t = to_source or [0.0, 1.0, 0.0, 0.0, 0.0, 1.0]

@@ -1,4 +1,4 @@
-"""Failures as exceptions: one class for each exit code of the program, the library's sentence as the message."""
+"""Failures as exceptions: one class for each exit code of the program, with the library's sentence as the message."""
 from __future__ import annotations
 
 

@@ -21,7 +21,7 @@ _LARGEST = 2**31 - 1
 class Cell(NamedTuple):
     """The mesh of a cell, ready for a GPU. The arrays are the library's memory, read-only."""
 
-    slot: int  #: its place in a renderer's buffer: at most one cell has it, also while the field moves
+    slot: int  #: its place in a renderer's buffer: no other cell has it, even while the field moves
     version: int  #: the change that made it
     row: int  #: its first sample, on the lattice of cells
     col: int
@@ -48,7 +48,7 @@ class _Handle:
 
 
 class Live:
-    """A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches.
+    """A field that changes many times a second, and its mesh: an update remakes only the cells that it touches.
 
     source         as in simplify(), but no path; copied
     max_error      every sample, as float32, is within this of the mesh, vertically, after every change; 0 with a budget
@@ -59,9 +59,9 @@ class Live:
     cell           steps between samples along a cell, 8 to 254. DEFAULT: 32 with "fast", else 64.
     tolerance      (rows, columns) bounds for the samples, or one number; inf: none
     place          (row, column) of the first sample on the lattice of cells
-    threads        of an update that touches several cells; never changes the mesh
+    threads        for an update that touches several cells; never changes the mesh
 
-    NaN, infinities, nodata and masked samples are voids. One thread at a time changes the field, and a second one gets a
+    NaN, infinities, nodata and masked samples are voids. One thread at a time may change the field; a second one gets a
     UsageError; others may read meanwhile. A failed call changes nothing. Runs without
     Python's lock. After any changes the mesh has the bytes of one made from the final samples at the same place; with
     max_triangles it depends on the changes before, too.
@@ -153,7 +153,7 @@ class Live:
 
     @property
     def transform(self) -> tuple[float, ...]:
-        """GDAL's six numbers of pixel corners for the field where it lies now, in the coordinates of mesh(): for
+        """GDAL's six numbers of pixel corners for the field at its current place, in the coordinates of mesh(): for
         measure(live.heights, live.mesh(), transform=live.transform)."""
         numbers = (C.c_double * 6)()
         self._call(_abi.lib.scarp_live_geotransform, numbers)
@@ -195,7 +195,7 @@ class Live:
     def update(self, rows: Any, cols: Any, heights: Any, tolerance: Any = None) -> None:
         """Replaces the samples of a window: `rows` and `cols` are slices, or numbers of one row or column.
 
-        `heights`: an array of the window's shape, or one number. `tolerance`: the same, or None: they stay."""
+        `heights`: an array of the window's shape, or one number. `tolerance`: the same, or None for no change."""
         row, row_count = self._window("rows", rows, self._shape[0])
         col, col_count = self._window("cols", cols, self._shape[1])
         array = self._values("heights", heights, (row_count, col_count))
@@ -208,13 +208,13 @@ class Live:
         self.update(row, col, _values.number_of("height", height))
 
     def scroll(self, rows: int, cols: int) -> None:
-        """Moves the field so many rows down and columns east. What enters is void until an update."""
+        """Moves the field `rows` down and `cols` east. New samples are void until an update."""
         _abi.check(self._call(_abi.lib.scarp_live_scroll, _values.whole_of("cols", cols, -_LARGEST, _LARGEST),
                               _values.whole_of("rows", rows, -_LARGEST, _LARGEST)))
 
     def changes(self, since: int = 0) -> Changes:
-        """The cells that changed after the version `since`, those that became empty included; after 0 all that have a
-        surface. A cell replaces the one that its slot had."""
+        """The cells that changed after the version `since`, including those that became empty; for 0, all cells with a
+        surface. A cell replaces the previous one of its slot."""
         out = C.c_void_p()
         _abi.check(self._call(_abi.lib.scarp_live_changes, _values.whole_of("since", since, 0, 2**63), C.byref(out)))
         handle, cells = _Handle(out.value), []
@@ -230,7 +230,7 @@ class Live:
         return Changes(_abi.lib.scarp_changes_version(handle.value), cells)
 
     def mesh(self) -> Mesh:
-        """The whole as one mesh, in coordinates that stay while the field moves. Without a report: see transform."""
+        """The whole field as one mesh, without a report. Moves do not change its coordinates: see transform."""
         out = C.c_void_p()
         _abi.check(self._call(_abi.lib.scarp_live_mesh, C.byref(out)))
         assert out.value is not None

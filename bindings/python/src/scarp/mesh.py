@@ -43,10 +43,10 @@ class Report(NamedTuple):
 
 
 class Volumes(NamedTuple):
-    """The volumes between two surfaces above the area that both cover, in the units of x, y and z of the first."""
+    """The volumes between two surfaces over the area that both cover, in units of x, y and z of the first surface."""
 
-    cut: float  #: volume with the surface after below the one before
-    fill: float  #: volume with the surface after above the one before
+    cut: float  #: volume where the surface after is below the surface before
+    fill: float  #: volume where the surface after is above the surface before
     net: float  #: cut - fill
     uncertainty: Optional[float]  #: bound of the three, by the max errors of the meshes; None: a mesh has none
     common_area: float  #: area that both cover

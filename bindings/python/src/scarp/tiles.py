@@ -31,7 +31,7 @@ def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: 
                `effort="high"`, `only="7,46,8,47"` ...
 
     Returns the report of `scarp tile --report`: "max_zoom", "vertical", and "levels", each with "tiles", "bytes" and
-    "bound". Raises and warns as simplify() does.
+    "bound". Raises and warns like simplify().
     """
     import json
     out_bytes = C.c_void_p()
@@ -114,7 +114,7 @@ class Tiles:
         return self.read_with_bound(level, x, y)[0]
 
     def read_with_bound(self, level: int, x: int, y: int) -> tuple[bytes, Optional[float]]:
-        """The same, and its proven error in metres; None for the coarsest tiles, for which not all nodes were
+        """The tile's bytes, and its proven error in metres; None for the coarsest tiles, for which not all nodes were
         examined."""
         out, bound = C.c_void_p(), C.c_double()
         place = [_values.whole_of(name, value, 0, _NO_TILE) for name, value in (("level", level), ("x", x), ("y", y))]

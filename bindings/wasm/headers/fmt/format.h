@@ -1,5 +1,5 @@
-// The part of {fmt} that the core uses. The tables and float printing of {fmt} would be a quarter of a small module;
-// here JavaScript prints numbers. An unknown format is a compile-time error.
+// The part of {fmt} that the core uses. The tables and float printing of {fmt} would be a quarter of a small module.
+// Here, JavaScript prints numbers. An unknown format is a compile-time error.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct Argument {
 
 namespace detail {
 
-/// Parses after `{`, at `at`: [INDEX] [:[+].PRECISION(e|f|g)] and `}`. False for anything else.
+/// Parses the text after `{`, at `at`: [INDEX] [:[+].PRECISION(e|f|g)] and `}`. False for other text.
 constexpr bool read_field(std::string_view text, std::size_t& at, std::size_t& index, Spec& spec) {
   const auto is_digit = [&] { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
   const auto take = [&](char what) { return at < text.size() && text[at] == what && ++at; };
