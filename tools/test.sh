@@ -126,7 +126,8 @@ run_callers() {
   runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so" 2>/dev/null || true)
   if [ -e "$folder/bindings/c/libscarp_c.so" ] && [ -e "$runtime" ]; then
     # Leaks are searched for above: an interpreter frees little at exit.
-    basename -a tests/python/test_*.py >"$scratch/files"
+    # test_xarray.py makes the same calls with other arrays.
+    basename -a tests/python/test_*.py | grep -v xarray >"$scratch/files"
     passes "the C library called by Python" env ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 \
       PYTHONPATH="$PWD/bindings/python/src" SCARP_LIBRARY="$(realpath "$folder")/bindings/c/libscarp_c.so" \
       SCARP_PROGRAM="$(realpath "$program")" SCARP_DEM="$PWD/data/jacksboro_fault.tif" xargs -a "$scratch/files" -P "$jobs" -I{} \

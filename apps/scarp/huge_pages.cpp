@@ -50,7 +50,7 @@ void request_huge_pages(void* block, std::size_t size) {
   }
 }
 
-/// Also replaced, so that a runtime that replaces every form, such as a sanitizer's, sees one allocator.
+/// These forms are also replaced, so that a runtime that replaces all forms, such as a sanitizer's, sees one allocator.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return operator new(size);

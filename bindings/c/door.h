@@ -52,7 +52,7 @@ constexpr const char* name_of(const scarp_live_cell*) { return "scarp_live_cell"
 
 /// True if a struct, of any version, can have this size.
 constexpr bool is_struct_size(std::uint32_t size) {
-  constexpr std::uint32_t kLargest = 1 << 16;  // uninitialised values are mostly larger
+  constexpr std::uint32_t kLargest = 1 << 16;  // most uninitialised values are larger
   return size >= 2 * sizeof(std::uint32_t) && size <= kLargest;
 }
 
@@ -65,7 +65,7 @@ void check_size(const T* given) {
                                         std::to_string(given->struct_size) + ", and should be sizeof(" + name + ")"}};
 }
 
-/// A struct of this version with the caller's members; the others have the defaults of init.
+/// A struct of this version with the caller's members; the other members have the defaults of init.
 template <class T>
 T known(const T* given, void (*init)(T*, std::uint32_t)) {
   T all;

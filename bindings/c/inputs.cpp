@@ -29,7 +29,7 @@ LentRaster raster_of(const scarp_field& field) {
 
 constexpr std::uint64_t kLargestArray = std::numeric_limits<std::ptrdiff_t>::max();  // bytes
 
-/// The reason why the struct's contents cannot fit in memory; empty if they can.
+/// The reason why the struct's contents are invalid; empty if valid.
 std::string find_fault(const scarp_field& field) {
   if (field.samples == nullptr) return "the pointer to the samples is null";
   if (field.frame < SCARP_FRAME_GRID || field.frame > SCARP_FRAME_DEGREES)

@@ -9,7 +9,7 @@
 
 namespace scarp::door {
 
-/// Lends a field and the arrays of the options, under their names.
+/// Lends a field or points, and the arrays of the options, to readers, which find them by name.
 class LentInputs {
  public:
   LentInputs(const scarp_field* field, const scarp_options& asked);

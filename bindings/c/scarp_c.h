@@ -1,4 +1,4 @@
-/* Scarp for C, and for languages that call C: height fields to triangle meshes with a proven error bound.
+/* Scarp for C, and for languages that call C: converts height fields to triangle meshes with a proven error bound.
  *
  *   scarp_field field;
  *   scarp_field_init(&field, sizeof field);
@@ -20,7 +20,7 @@
  *   - Data behind a pointer in a struct is borrowed during the call; a Refiner borrows its samples until it is freed.
  *   - A pointer returned by a handle is valid until the handle is freed. Freeing NULL does nothing. Functions that
  *     return a number or a pointer do not accept NULL as a handle.
- *   - Several threads may call at once. Several threads may read a handle, or one may change it. Text is UTF-8.
+ *   - Several threads may call at once. Several threads may read a handle, or one thread may change it. Text is UTF-8.
  *   - The same input and options give the same bytes on every machine, for any number of threads. */
 #ifndef SCARP_C_H
 #define SCARP_C_H
@@ -44,7 +44,7 @@ typedef int32_t scarp_status;
 #define SCARP_USAGE 1     /* options that conflict or are out of range; a null pointer */
 #define SCARP_INPUT 2     /* a raster or mesh without usable data, or a file that cannot be read */
 #define SCARP_PROMISE 3   /* the requested error bound cannot be met, or is exceeded */
-#define SCARP_OUTPUT 4    /* a file that cannot be written, a format that cannot hold the mesh */
+#define SCARP_OUTPUT 4    /* a file that cannot be written, or a format that cannot hold the mesh */
 #define SCARP_CANCELLED 5 /* cancelled by the progress function */
 #define SCARP_INTERNAL 70 /* a bug in Scarp */
 
@@ -69,14 +69,14 @@ typedef struct scarp_progress {
   uint64_t tiles;      /* written so far, in the pass "tiles" */
   uint64_t bytes;      /* bytes of these tiles */
 } scarp_progress;
-/* Called on the thread of the call, at the start of a pass and a few times a second. Return 0 to continue, else to
- * cancel. Must not throw or jump. */
+/* Called on the thread that made the call, at the start of a pass and a few times a second. Return 0 to continue, else
+ * to cancel. Must not throw or jump. */
 typedef int32_t (*scarp_progress_fn)(const scarp_progress* progress, void* user);
 
 /* The positions of samples. */
 #define SCARP_FRAME_GRID 0    /* x = column, y = rows - 1 - row; the geotransform is ignored */
 #define SCARP_FRAME_SOURCE 1  /* by the geotransform and the CRS; degrees become metres if the CRS is in degrees */
-#define SCARP_FRAME_DEGREES 2 /* the geotransform is in degrees (of WGS 84 without a CRS): metres around the centre */
+#define SCARP_FRAME_DEGREES 2 /* geotransform in degrees (of WGS 84 without a CRS); x, y in metres from the centre */
 
 /* Heights on a grid, row-major, the first row in the north. NaN and infinities are nodata. */
 typedef struct scarp_field {
@@ -84,10 +84,10 @@ typedef struct scarp_field {
   int32_t cols, rows; /* at least 2 */
   int32_t frame;      /* DEFAULT: SCARP_FRAME_GRID. The option "crs" selects another. */
   const float* samples;
-  double nodata;          /* nodata value; if samples have it, all are copied. DEFAULT: NaN, none. */
+  double nodata;          /* nodata value; if any sample has it, all samples are copied. DEFAULT: NaN, none. */
   double geotransform[6]; /* GDAL's, of pixel corners: x = g[0] + g[1] col + g[2] row, y = g[3] + g[4] col + g[5] row */
-  double sample_rounding; /* largest |value - float32 sample| by rounding; bounds are tightened by it */
-  const char* crs;        /* "EPSG:32611", WKT. DEFAULT: NULL. Only a name in a library without GDAL. */
+  double sample_rounding; /* largest |value - float32 sample| by rounding; bounds are reduced by it */
+  const char* crs;        /* "EPSG:32611", WKT. DEFAULT: NULL. A library without GDAL uses it only as a name. */
   const char* name;       /* for messages and the mesh's metadata. DEFAULT: NULL, "heights". */
   const char* unit; /* unit of the heights: "m", "ft"; for errors such as "1m" and "3ft". DEFAULT: NULL, unknown. */
 } scarp_field;
@@ -111,7 +111,7 @@ typedef struct scarp_options {
   uint64_t max_triangles; /* 0: none */
   uint64_t max_points;    /* vertices; 0: none */
   const float* mask;      /* NULL, or a weight for each sample: weight * |error| is bounded; 0 and NaN: no bound */
-  const float* tolerance; /* NULL, or a bound for each sample, NaN: none; or for each point, infinity: none */
+  const float* tolerance; /* NULL, or a bound for each sample (NaN: none) or each point (infinity: none) */
   scarp_progress_fn progress;
   void* user;
   scarp_settings* named; /* options set by scarp_options_set() */
@@ -123,7 +123,7 @@ typedef struct scarp_report {
   int32_t stop;          /* goal that ended the run: 0 max_error, 1 max_triangles, 2 max_points, 3 every sample is exact
                           */
   int32_t effort;        /* 0 fast, 1 normal, 2 high, 3 max; -1 for a mesh that was only measured */
-  int32_t is_cut_short;  /* 1: a time limit ended the effort */
+  int32_t is_cut_short;  /* 1: a time limit ended the run early */
   int32_t max_error_col; /* the sample with the largest error; -1: none */
   int32_t max_error_row;
   uint64_t vertices, triangles;
@@ -141,16 +141,16 @@ typedef struct scarp_live_options {
   int32_t threads;  /* for an update that touches several cells; never changes the result. DEFAULT: 1. */
   double max_error; /* in z units, at least 0. DEFAULT: 0. */
   int32_t effort;   /* 0 fast, 1 normal, 2 high. DEFAULT: 0. */
-  int32_t cell;     /* steps between samples along a cell, 8 to 254. DEFAULT: 0, which is 32 with fast, else 64. */
+  int32_t cell;     /* steps between samples on a cell's side, 8 to 254. DEFAULT: 0, which is 32 with fast, else 64. */
   int32_t col, row; /* position of the field's first sample on the lattice of cells. DEFAULT: 0. */
   const float* tolerance; /* NULL, or a bound for each sample of the field */
-  uint64_t max_triangles; /* a budget after every change: bounds exceed max_error if it needs this. DEFAULT: 0, none. */
+  uint64_t max_triangles; /* a budget after every change; bounds exceed max_error if necessary. DEFAULT: 0, none. */
 } scarp_live_options;
 
 /* The mesh of a cell; the pointers are valid as long as the scarp_changes. */
 typedef struct scarp_live_cell {
   uint32_t struct_size;
-  uint32_t slot;                /* its place in a renderer's buffer; no other cell has it */
+  uint32_t slot;                /* its place in a renderer's buffer; no other cell has this place */
   uint64_t version;             /* the change that made it */
   int32_t col, row;             /* its first sample, on the lattice of cells */
   uint32_t vertices, triangles; /* 0 triangles: the cell has no surface */
@@ -172,19 +172,19 @@ const char* scarp_last_error(void);
  * Applies to the whole process; call it before any other function. SCARP_USAGE if there is no such option. */
 scarp_status scarp_name_option(const char* name, const char* shown);
 
-/* Rounds heights to float32 samples, for a field. Returns the largest |value - sample|, for its sample_rounding. NaN
- * remains NaN; values beyond float32 become infinite. */
+/* Rounds heights to float32 samples, for a field. Returns the largest |value - sample|, for the field's
+ * sample_rounding. NaN remains NaN; values beyond float32 become infinite. */
 double scarp_round_samples(const double* values, uint64_t count, float* samples);
 
 void scarp_field_init(scarp_field* field, uint32_t struct_size);
 void scarp_points_init(scarp_points* points, uint32_t struct_size);
 void scarp_options_init(scarp_options* options, uint32_t struct_size);
-/* Sets any option of the program except those for its terminal and files, by its long name with _ instead of -, to a
- * value that the program accepts: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
- * "true"). For a repeatable option each call adds a value; else the last value is used. NULL removes the option. An
- * option set by name overrides the member of the struct. `scarp help --json` lists all options. "of" is the format of
- * the mesh: like the program's OUTPUT it determines the frame, and whether positions are float32. SCARP_USAGE for an
- * unknown name; the message suggests a similar one. */
+/* Sets an option of the program to a value that the program accepts. `name`: its long name with _ instead of -. Options
+ * for the program's terminal and files are refused. Examples: ("max_error", "0.5%"), ("effort", "high"), ("breaklines",
+ * "dikes.gpkg"), ("normals", "true"). For a repeatable option each call adds a value; else the last value is used. NULL
+ * removes the option. An option set by name overrides the same member of the struct. `scarp help --json` lists all
+ * options. "of" is the format of the mesh: like the program's OUTPUT it determines the frame, and whether positions are
+ * float32. SCARP_USAGE for an unknown name; the message suggests a similar one. */
 scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value);
 /* Frees the options of scarp_options_set(); the struct may be used again. */
 void scarp_options_clear(scarp_options* options);
@@ -221,8 +221,8 @@ typedef struct scarp_volumes {
 } scarp_volumes;
 
 /* Measures from one mesh to another, in the frames that their metadata name, or to a level. Uses only the options
- * threads and progress. SCARP_INPUT for meshes without a common area, and for a solid, a triangle that stands upright
- * or faces down, and triangles that overlap. */
+ * threads and progress. SCARP_INPUT for meshes without a common area, for solids, for triangles that are vertical or
+ * face down, and for triangles that overlap. */
 scarp_status scarp_measure_volume(const scarp_mesh* from, const scarp_mesh* to, const scarp_options* options,
                                   scarp_volumes* out);
 scarp_status scarp_measure_volume_to_level(const scarp_mesh* from, double level, const scarp_options* options,
@@ -244,16 +244,16 @@ const float* scarp_mesh_positions_f32(const scarp_mesh* mesh); /* rounded positi
 /* `key`: "crs", "frame", "command", "error" ...; NULL if the mesh does not have it. */
 const char* scarp_mesh_metadata(const scarp_mesh* mesh, const char* key);
 const char* scarp_mesh_warnings(const scarp_mesh* mesh); /* one sentence a line; "" if none */
-/* The report of a mesh that Scarp made; SCARP_USAGE for other meshes: measure them by scarp_measure(). */
+/* The report of a mesh that Scarp made; SCARP_USAGE for other meshes, which scarp_measure() can measure. */
 scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out);
-/* Makes another mesh: a solid, closed by walls and a flat base at z, below all vertices. */
+/* Makes another mesh: a solid, closed by walls and a flat base at z, which must be below all vertices. */
 scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** out);
 /* `format`: "glb", "obj", "2dm" ... (`scarp help --json`), "svg" or "eps". NULL: the format for which the mesh was
  * made. */
 scarp_status scarp_mesh_encode(const scarp_mesh* mesh, const char* format, scarp_bytes** out);
 /* Writes a file in the format of its ending, first to a temporary name. */
 scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t overwrite);
-/* Converts a whole mesh to bytes, and back: for another process with the same version of the library. */
+/* Converts a whole mesh to bytes, and back, for another process with the same version of the library. */
 scarp_status scarp_mesh_pack(const scarp_mesh* mesh, scarp_bytes** out);
 scarp_status scarp_mesh_unpack(const uint8_t* bytes, uint64_t size, scarp_mesh** out);
 void scarp_mesh_free(scarp_mesh* mesh);
@@ -269,7 +269,7 @@ int32_t scarp_refiner_insert_worst(scarp_refiner* refiner);
 /* Inserts vertices until the max error is at most max_error, or there are max_vertices (0: any number). Returns the
  * number of vertices inserted; -1: failed. */
 int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices);
-/* The same with options: reads max_error (DEFAULT: 0), max_points and progress. `inserted`, if not NULL, is always set:
+/* The same with options: uses max_error (DEFAULT: 0), max_points and progress. `inserted`, if not NULL, is always set:
  * the refiner keeps vertices inserted before a cancellation. */
 scarp_status scarp_refiner_go_on(scarp_refiner* refiner, const scarp_options* options, uint64_t* inserted);
 double scarp_refiner_max_error(const scarp_refiner* refiner);
@@ -281,7 +281,8 @@ void scarp_refiner_free(scarp_refiner* refiner);
 /* A field that changes many times a second: an update remakes only the cells that it touches. The field is copied. One
  * thread at a time may change it; a second thread gets an error. Meanwhile, other threads may call
  * scarp_live_changes(), _mesh() and the counts. A failed call changes nothing. The mesh has the same bytes as that of a
- * field made from the final samples at the same col and row. With max_triangles it also depends on earlier changes. */
+ * field made from the final samples at the same col and row. With max_triangles, the mesh also depends on earlier
+ * changes. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
 /* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: cols * rows
@@ -312,7 +313,7 @@ uint64_t scarp_live_triangle_count(const scarp_live* live);
 uint32_t scarp_live_slot_count(const scarp_live* live);
 void scarp_live_free(scarp_live* live);
 
-/* Reads a raster by the options ("band", "nodata", "crs", "z_scale" ...). */
+/* Reads a raster with the options ("band", "nodata", "crs", "z_scale" ...). */
 scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out);
 /* Fills `field`, which borrows the raster's samples. REQUIRES: scarp_field_init() was called. */
 void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
@@ -331,7 +332,7 @@ scarp_status scarp_tile_files(const char* const* paths, uint64_t count, const sc
 scarp_status scarp_tiles_open(const char* path, const scarp_options* options, scarp_tiles** out);
 scarp_status scarp_tiles_open_field(const scarp_field* field, const scarp_options* options, scarp_tiles** out);
 int32_t scarp_tiles_max_level(const scarp_tiles* tiles);
-/* Columns and rows of the tiles of a level, two numbers a tile, sorted; NULL and 0 if there are none. */
+/* Columns and rows of the tiles of a level, two numbers per tile, sorted; NULL and 0 if there are none. */
 uint64_t scarp_tiles_count(const scarp_tiles* tiles, int32_t level);
 const uint32_t* scarp_tiles_list(const scarp_tiles* tiles, int32_t level);
 /* The tile's bytes as stored (gzip). `bound`, if not NULL: its proven error in metres, NaN if unknown. Several threads

@@ -30,7 +30,6 @@ namespace {
 
 enum class InputKind { kField, kPoints, kFile };  // a file contains either data
 
-/// The request of a call.
 struct Request {
   std::vector<std::string> words;
   cli::GivenOptions given{cli::kSimplify};
@@ -45,8 +44,8 @@ Result<void> check_goal(const cli::GivenOptions& given) {
               "max_points");
 }
 
-/// The command's options as in a run of the program, and the last requests about fields. Cached per thread, because
-/// making them anew is slower than simplifying a small field.
+/// The command's options as in a run of the program, and the last requests about fields. Both are cached per thread,
+/// because making them anew is slower than simplifying a small field.
 class SimplifyWords {
  public:
   SimplifyWords() { given_.add_to(program_); }
@@ -106,7 +105,7 @@ std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, cli::Simpli
   return mesh;
 }
 
-/// Moves the mesh of a print's only tile.
+/// Replaces the mesh by that of the print's only tile.
 Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
   if (!outcome.print) return {};
   if (outcome.print->tiles.size() != 1)

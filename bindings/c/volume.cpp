@@ -29,7 +29,7 @@ scarp_volumes describe_volumes(const cli::ComparedSurfaces& compared) {
   return volumes;
 }
 
-/// Compares the surfaces lent under these names, or one of them and a level.
+/// Compares the two surfaces lent under these names, or one surface and a level.
 scarp_status compare(const std::string& from, const std::string& to, const scarp_options* options, scarp_volumes* out) {
   const scarp_options asked = known(options, scarp_options_init);
   CLI::App program;

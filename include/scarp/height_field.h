@@ -48,7 +48,7 @@ class SpaceTransform {
   virtual bool to_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
   /// The inverse map, to x, y and heights.
   virtual bool from_space(std::span<double> x, std::span<double> y, std::span<double> z) const = 0;
-  /// The point from which float32 positions are offsets.
+  /// The point to which float32 positions are relative.
   virtual std::array<double, 3> origin() const = 0;
   /// The unit vector that points away from the earth at the raster's centre.
   virtual std::array<double, 3> up() const = 0;
@@ -60,8 +60,8 @@ class SpaceTransform {
 /// The map from sample (col, row) to a point (x, y) of the mesh:
 ///   x = affine[0] + affine[1]·col + affine[2]·row
 ///   y = affine[3] + affine[4]·col + affine[5]·row
-/// (GDAL's order of terms; integer col, row are sample *centres*). Then `transform`, if set, is applied. z is the
-/// sample's height. Only a frame in space, where `space` is set, maps x, y and height together to x, y, z.
+/// (The terms are in GDAL's order; integer col, row are sample *centres*.) Then `transform`, if set, is applied. z is
+/// the sample's height, except in a frame in space: `space` then maps x, y and height together to x, y, z.
 ///
 /// DEFAULT: the frame of a raster without georeference, see grid_frame().
 struct Frame {
@@ -98,7 +98,7 @@ Frame grid_frame(int rows);
 std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
 
 /// True if float32 holds every sample's offset from frame_origin() exactly, so that a mesh written with float32 offsets
-/// has its vertices exactly on the samples. `steps`: the check covers a lattice of `steps` points a sample. False for
+/// has its vertices exactly on the samples. The check covers positions at multiples of 1 / `steps` sample. False for
 /// non-affine frames. Cost: O((cols + rows) · steps).
 bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
 
@@ -106,8 +106,7 @@ bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
 
 /// The ellipsoid and the unit of longitude and latitude.
 struct Geodetic {
-  double semi_major = 6378137;                ///< semi-major axis of the ellipsoid, in metres, above 0. DEFAULT: WGS
-                                              ///< 84.
+  double semi_major = 6378137;                ///< semi-major axis in metres, above 0. DEFAULT: WGS 84.
   double inverse_flattening = 298.257223563;  ///< inverse flattening of the ellipsoid; 0: a sphere. DEFAULT: WGS 84.
   /// The unit of x and y in radians. DEFAULT: a degree.
   double radians_per_unit = 0.017453292519943295;
@@ -124,11 +123,11 @@ std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic =
 
 /// The local frame of a raster in degrees: metres east and north of its centre sample (cols / 2, rows / 2), which is at
 /// 0, 0. `affine` maps samples to longitude and latitude, as Frame::affine does. Two constants, the ellipsoid's radii
-/// of curvature at the centre, convert degrees to metres. So the frame is affine, and a bound on the grid holds in the
-/// mesh. Lengths along the centre's parallel and meridian are true; elsewhere east-west lengths are scaled by cos
-/// φ_centre / cos φ. The cell is rounded so that float32 holds each sample's x and y exactly. With 5,000 samples from
-/// the centre to the border, this changes the cell by less than 0.03 %. read_height_field() makes the same frame from a
-/// file's CRS.
+/// of curvature at the centre, convert degrees to metres. So the frame is affine, and an error bound on the grid holds
+/// in the mesh. Lengths along the parallel and meridian of the centre are true; elsewhere east-west lengths are scaled
+/// by cos φ_centre / cos φ. The cell is rounded so that float32 holds each sample's x and y exactly. With 5,000 samples
+/// from the centre to the border, rounding changes the cell by less than 0.03 %. read_height_field() makes the same
+/// frame from a file's CRS.
 ///
 /// Frame::kind is kLocal, Frame::crs is empty, Frame::description states the centre and the cell. Fails with kUsage for
 /// fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole, and cells whose sides
@@ -153,7 +152,7 @@ struct SampleAt {
   friend bool operator==(const SampleAt&, const SampleAt&) = default;
 };
 
-/// An additional value at each sample, such as a colour: borrowed, on the grid of the heights.
+/// Borrowed additional values at the samples of the height grid, such as colours.
 struct Channel {
   const float* samples = nullptr;  ///< cols·rows values; finite wherever the heights have a value
   double scale = 1;                ///< factor that makes the channel's errors comparable with errors in z units; at
@@ -165,16 +164,16 @@ class SampleSource {
  public:
   virtual ~SampleSource() = default;
   /// Writes a window of cols × rows samples, the first at (col, row), to `out`: row-major, with `stride` floats from
-  /// row to row. Nodata becomes NaN. Several threads may call it at once. Fails with kInput, naming file and row.
-  /// REQUIRES: the window lies in the raster.
+  /// row to row. Nodata becomes NaN. Several threads may call it at once. Fails with kInput; the message names file and
+  /// row. REQUIRES: the window lies in the raster.
   virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
   /// True if reading a window costs about as much as copying it. If false, callers read whole rows from the top down,
-  /// once or a few times, and small windows only where unavoidable.
+  /// once or a few times, and read small windows only where this is unavoidable.
   virtual bool is_in_memory() const = 0;
 };
 
-/// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major; code k means the height heights[k], which
-/// is NaN for nodata. REQUIRES: `cols` codes in each row, and a height for each code.
+/// A source of 16-bit codes in memory, 2 bytes per sample. `codes` is row-major. Code k stands for heights[k], which is
+/// NaN for nodata. REQUIRES: `cols` codes in each row, and a height for each code.
 std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes, int cols, std::vector<float> heights);
 
 /// A height field that borrows its samples.
@@ -195,9 +194,9 @@ struct HeightField {
   /// At most kMaxChannels channels. With channels, the error of a sample is the norm of (height_scale · |height error|,
   /// scale₁ · |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
-  double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
-  /// Source of the samples, borrowed, if `samples` is null. simplify() (without channels) and measure() accept a
-  /// source; functions that need one array of samples fail with kUsage. DEFAULT: none.
+  double height_scale = 1;  ///< weight of the height error in this norm, at least 0. DEFAULT: 1.
+  /// Borrowed source of the samples if `samples` is null. simplify() (without channels) and measure() accept a source;
+  /// functions that need one array of samples fail with kUsage. DEFAULT: none.
   const SampleSource* source = nullptr;
 };
 
@@ -213,27 +212,27 @@ struct HeightCount {
 struct UndeclaredNodata {
   HeightCount of;
   double value = 0;         ///< the corresponding value in the file
-  bool is_high = false;     ///< true: above all other heights; false: below
-  double min = 0, max = 0;  ///< range of the other heights
+  bool is_high = false;     ///< true: above all real heights; false: below them
+  double min = 0, max = 0;  ///< range of the real heights
 };
 
 /// Signs that heights packed into colours are wrong: the colours were changed after packing, or are not packed heights.
 struct PackedDoubts {
-  /// Number of suspect samples. The two neighbours of a suspect sample in its row have similar heights, but differ from
-  /// the sample by an eighth to one and a half times the weight of the next colour, which changes at the sample. 0
-  /// unless the differences are typical of interpolation or lossy compression. In a large raster, only some rows are
-  /// searched for interpolation.
+  /// Number of suspect samples. The two neighbours of a suspect sample in its row have similar heights. They differ
+  /// from the sample by 1/8 to 3/2 of a step of green or red, and this colour changes at the sample. 0 unless the
+  /// differences are typical of interpolation or lossy compression. In a large raster, only some rows are searched for
+  /// interpolation.
   std::uint64_t torn = 0;
-  double torn_by = 0;      ///< largest such difference
-  std::string seems = {};  ///< another encoding with plausible heights, if most heights as read are impossible on earth
+  double torn_by = 0;      ///< largest of these differences
+  std::string seems = {};  ///< another encoding with plausible heights, if most decoded heights are impossible on earth
 };
 
 /// Counts of missing samples, for ReadOptions::void_side.
 struct VoidCount {
-  std::uint64_t filled = 0;  ///< samples
+  std::uint64_t filled = 0;  ///< filled samples
   std::uint64_t left = 0;    ///< samples of larger voids and of voids at the raster's edge
-  /// Each remaining void has a lowest and a highest neighbouring height. `least`: the highest of the lowest ones;
-  /// `most`: the lowest of the highest ones.
+  /// Each remaining void has a lowest and a highest neighbouring height. `least` is the maximum of all lowest heights;
+  /// `most` is the minimum of all highest heights.
   double least = 0, most = 0;
 };
 
@@ -245,7 +244,7 @@ struct RasterInfo {
   std::string crs;          ///< CRS of the file, such as "EPSG:4326", or WKT without a known authority; empty if none
   std::string crs_unit;     ///< unit of the CRS's x and y: "metre", "US survey foot", "degree"; empty without a CRS
   double crs_unit_in_metres = 0;  ///< 0 for degrees, and if there is no CRS
-  bool is_geographic = false;     ///< x and y of the file are degrees
+  bool is_geographic = false;     ///< true if x and y of the file are degrees
   std::string vertical;           ///< vertical datum of the heights, if the CRS names it: "EGM96 height"; else empty
   bool is_ellipsoidal = false;    ///< true if the CRS declares ellipsoidal heights
   std::string crs_with_heights;   ///< WKT of the CRS if `vertical` is set; else empty
@@ -256,7 +255,7 @@ struct RasterInfo {
   double scale = 1, offset = 0;   ///< declared by the file: value = scale · (stored value) + offset
   double z_scale = 1, z_offset = 0;  ///< height = z_scale · value + z_offset, from ReadOptions and the conversion to
                                      ///< metres
-  std::optional<double> nodata;      ///< the nodata value used, as a value of the file
+  std::optional<double> nodata;      ///< the effective nodata value, as a value of the file
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's geotransform, of the pixel *corner*; identity if
                                                          ///< none
   bool has_georeference = false;
@@ -270,7 +269,7 @@ struct RasterInfo {
   VoidCount voids = {};                             ///< set if has_range, or for samples in memory
   std::string view = {};       ///< description of the selection by ReadOptions::view; empty for one unchanged raster
   PackedDoubts packed = {};    ///< set for heights packed into colours
-  std::string depths = {};     ///< the reason why the values, which were not negated, seem to be depths; else empty
+  std::string depths = {};     ///< reason why the values seem to be depths; empty if they do not, or were negated
   bool seems_degrees = false;  ///< true if x and y resemble degrees, but the CRS is not geographic
 };
 
@@ -301,7 +300,7 @@ struct OwnedHeightField {
 };
 
 /// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, or if the samples are
-/// not in memory: use Measurement::heights for these.
+/// not in memory. For a source, use Measurement::heights.
 struct HeightRange {
   static constexpr std::size_t kEnds = 6;
 
@@ -316,30 +315,31 @@ struct HeightRange {
 };
 HeightRange height_range(const HeightField& field, int threads = 1);
 
-/// The heights at either end of the range that are probably undeclared nodata. `scale`, `offset`: height = scale ·
-/// value + offset. Below, "range" means that of all other heights. These values count as nodata:
-/// - a usual sign for nodata (-999, -10000, -32768; ±9999, ±99999, ±999999, ±32767, ±65535; beyond ±1e20), at least a
-///   fifth of the range away;
-/// - 0, at least a twentieth of the range and 10 away, if at least a thousandth of the samples is 0 (land near a real
-///   sea at 0 is not much higher);
-/// - another whole number, such as -99, at least the range away, if a thousandth to half of the samples, and at least
-///   10, have it;
-/// - any other value, at least 50 times the range away, if at most a hundredth of the samples has it.
-/// If all other heights are equal, only the first rule applies. At most HeightRange::kEnds − 1 heights are found at one
-/// end. Cost: O(1).
+/// Returns the lowest and highest heights that are probably undeclared nodata. `scale`, `offset`: height = scale ·
+/// value + offset. Below, R is the range of all heights except those being judged, and d is the distance of a judged
+/// height from this range. These values count as nodata:
+/// - a usual sign for nodata (-999, -10000, -32768; ±9999, ±99999, ±999999, ±32767, ±65535; beyond ±1e20), if d >= 0.2
+///   R;
+/// - 0, if d >= 0.05 R, d >= 10, and at least a thousandth of the samples is 0 (land near a real sea at 0 is not much
+///   higher);
+/// - another whole number, such as -99, if d >= R, and a thousandth to half of the samples, and at least 10, have this
+///   value;
+/// - any other value, if d >= 50 R, and at most a hundredth of the samples has this value.
+/// If R is 0, only the first rule applies. At most HeightRange::kEnds − 1 heights are found at each end. Cost: O(1).
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range, double scale = 1, double offset = 0);
 
 /// The map from samples to the coordinates of lines. These are the coordinates of the raster's file or, if the file has
 /// none, x = col, y = rows − 1 − row.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
-/// Fills nodata by interpolation: each nodata sample within `max_distance` samples of a valid one (Euclidean, along the
-/// eight compass directions) is filled. Its height is the mean of the nearest valid samples in those directions,
-/// weighted by inverse squared distance. Returns the number of samples filled. REQUIRES: max_distance > 0; the samples
-/// are in memory (those of a source do not change). Cost: O(cols·rows), 16 extra bytes for each nodata sample.
+/// Fills each nodata sample that has a valid sample within `max_distance` samples (Euclidean) in one of the eight
+/// compass directions. Its height becomes the mean of the nearest valid samples in these directions, weighted by
+/// inverse squared distance. Returns the number of samples filled. REQUIRES: max_distance > 0; the samples are in
+/// memory (samples of a source do not change). Cost: O(cols·rows). Memory: 16 bytes per nodata sample.
 std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance);
 
-/// Sets all nodata samples to the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
+/// Sets all nodata samples to the height `value`. Returns the number of samples filled. REQUIRES: the samples are in
+/// memory.
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 // Samples changed by lines.
@@ -351,22 +351,22 @@ struct SampleEdit {
 };
 
 /// Returns `source` with Simplified::edits applied. The bound of a mesh with hard lines holds for the edited samples.
-/// `edits`: edits of valid samples, in raster order. Cost of a window: that of `source`, and one search for edits in
-/// each row.
+/// `edits`: edits of valid samples, in raster order. Cost of a window: that of `source`, plus one search for edits per
+/// row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
 
 /// Applies the edits to `field`, in memory or by edit_source(). `edits`: as for edit_source(). Cost: O(edits).
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
-// Scattered samples as values.
+// Types for scattered samples.
 
 /// A line through points of a set: a contour, a ridge, the foot of a dam.
 struct PointLine {
-  std::vector<std::uint32_t> points;  ///< at least two indices; successive ones differ; rings end with their first
+  std::vector<std::uint32_t> points;  ///< at least two; successive indices differ; a ring ends with its first index
   std::string name;                   ///< for messages: "contours.gpkg feature 12"
-  bool keeps_vertices = false;        ///< all of its points become vertices, as for breaklines; false: only those
-                                      ///< needed
+  bool keeps_vertices = false;        ///< true: all points become vertices, as for breaklines; false: only the
+                                      ///< necessary points
 };
 
 /// The points of an ASPRS class; class 2 is ground.
@@ -376,12 +376,12 @@ struct PointClass {
 };
 
 /// Facts about a LAS or LAZ file, and the numbers of its points that were not read, by reason. Each point counts once,
-/// for the first reason in the order of the members.
+/// for the first reason that applies, in the order of the members.
 struct LasFacts {
   std::string version;              ///< "1.4"
   int point_format = 0;             ///< 0 to 10
   std::uint64_t points = 0;         ///< number in the file
-  std::vector<PointClass> classes;  ///< points that are not withheld, read or not; sorted by number
+  std::vector<PointClass> classes;  ///< counts of points that are not withheld, read or not; sorted by number
   std::uint64_t withheld = 0, of_other_classes = 0, overlap = 0, of_other_returns = 0;
 };
 
@@ -390,12 +390,12 @@ struct PointSet {
   std::vector<double> x, y, z;   ///< coordinates, of equal size; all finite
   std::vector<PointLine> lines;  ///< lines that no triangle crosses. EMPTY: none
   /// Rings of polygons at which the surface ends, as indices of their corners; holes are also rings. All points lie
-  /// inside, by the even-odd rule. From cut_to_boundary(). EMPTY: the surface ends at a hull.
+  /// inside, by the even-odd rule. Made by cut_to_boundary(). EMPTY: the surface ends at a hull.
   std::vector<std::vector<std::uint32_t>> boundary;
-  /// Bounds of the first points, for PointOptions::tolerances; the other points have none. Functions that omit or sort
-  /// points keep each bound with its point. EMPTY: none.
+  /// Error bounds of the first points, for PointOptions::tolerances; the other points have none. Functions that omit or
+  /// sort points keep each bound with its point. EMPTY: none.
   std::vector<float> tolerances;
-  /// Boundaries in the file at which the surface does not end, named as in read_lines(): "survey.xml:EG".
+  /// Names, as in read_lines(), of boundaries in the file at which the surface does not end: "survey.xml:EG".
   std::vector<std::string> outlines;
   std::string path;         ///< source of the points, for messages
   std::string format;       ///< "CSV", "GPKG", …
@@ -415,7 +415,7 @@ struct PointSet {
   std::uint64_t without_height = 0;  ///< points omitted by ReadPointsOptions::nodata
   std::uint64_t spikes = 0;          ///< points omitted by drop_spikes()
   std::uint64_t outside = 0;         ///< points omitted by ReadPointsOptions::extent
-  bool is_geographic = false;        ///< for lent points: x and y are degrees, without a CRS known to GDAL
+  bool is_geographic = false;        ///< true if x and y of lent points are degrees, without a CRS known to GDAL
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 
   std::size_t size() const { return x.size(); }

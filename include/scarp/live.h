@@ -33,8 +33,8 @@ struct LiveOptions {
   /// requires larger errors.
   double max_error = 0;
   Effort effort = Effort::kFast;  ///< kFast, kNormal or kHigh
-  /// Steps between samples along the side of a cell, 8 to 254. Small cells need less time and, above fast effort, more
-  /// triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which means 32 with kFast, else 64.
+  /// Steps between samples along the side of a cell, 8 to 254. Small cells need less time and, with efforts above
+  /// kFast, more triangles (bench/performance.md, "Live fields"). DEFAULT: 0, which means 32 with kFast, else 64.
   int cell = 0;
   /// Threads of an update that touches several cells, as Run::threads. Never changes the result.
   int threads = 1;
@@ -43,7 +43,7 @@ struct LiveOptions {
   SampleAt place = {};
   /// Budget: the max number of triangles after every change. The cells' error bounds follow the budget: they rise and
   /// fall in steps of 19 %, one cell after the other, and differ by at most one step. LiveField::max_error() returns
-  /// the resulting error. Fields of 50 cells or more mostly use at least 98 % of the budget, or less if one cell has
+  /// the resulting error. Fields of 50 cells or more usually use at least 98 % of the budget, but less if one cell has
   /// many of the triangles. Fewer triangles are used if they satisfy max_error or reproduce the samples. Not allowed
   /// with tolerances. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
@@ -75,7 +75,7 @@ struct LiveCell {
   /// cell has no surface.
   std::vector<std::uint16_t> triangles;
   std::vector<float> channels;  ///< one value for each vertex and channel of the field, vertex by vertex
-  double max_error = 0;         ///< measured; with channels, of the norm
+  double max_error = 0;         ///< measured max error; with channels, that of the norm
 
   std::size_t vertex_count() const { return positions.size() / 3; }
   std::size_t triangle_count() const { return triangles.size() / 3; }
@@ -94,9 +94,9 @@ struct LiveChanges {
 
 /// Cells lie on a fixed lattice. A cell's mesh depends only on its samples, the validity of the samples around the
 /// cell, and the options. A cell's border is a locked border (Border): its line depends only on the border's samples
-/// and the validity of adjacent samples. So, after any sequence of changes and for any number of threads, the mesh is
-/// byte for byte that of a new field with the final samples at the same place. With a budget, the new field also needs
-/// the same level(). The level does not change while the number of triangles is within a certain range.
+/// and the validity of adjacent samples. So, after any sequence of changes and for any number of threads, the mesh
+/// equals, byte for byte, that of a new field with the final samples at the same place. With a budget, the new field
+/// also needs the same level(). The level does not change while the number of triangles is within a certain range.
 ///
 /// After each change, the guarantees of simplify() hold for every cell, and so for the field. The domain is that of
 /// simplify() for the whole field. Neighbouring cells share the vertices of their common border, so there are no
@@ -107,16 +107,16 @@ struct LiveChanges {
 /// Channels have a value at every sample with a height. With channels, errors are norms as defined by HeightField and
 /// LiveOptions::norm.
 ///
-/// Threads: one thread at a time may change the field; a second one gets an error. Meanwhile, any number of threads may
-/// call changes(), mesh(), max_error() and triangle_count(). These calls see the state before or after a change, and
-/// hold a lock only while they copy pointers. heights() and a change wait for each other.
+/// Threads: one thread at a time may change the field; a second thread gets an error. Meanwhile, any number of threads
+/// may call changes(), mesh(), max_error() and triangle_count(). These calls see the state before or after a change,
+/// and hold a lock only while they copy pointers. heights() and a change wait for each other.
 ///
-/// Errors: kUsage for windows outside the field, arrays of the wrong size and budgets that no bound satisfies; kInput
-/// for heights without a channel's value; and those of simplify(). After an error, the field is unchanged.
+/// Errors: kUsage for windows outside the field, arrays of the wrong size, and budgets that no error bound satisfies;
+/// kInput for heights without a channel's value; and the errors of simplify(). After an error, the field is unchanged.
 ///
 /// Cost of a change: that of simplify() with Border::is_locked for each cell that the change touches (four for a window
 /// of a cell's size), independent of the size of the field. If the number of triangles leaves its range for the budget,
-/// other cells are also remade: mostly a few, but after a change of the whole field all cells, several times. scroll()
+/// other cells are also remade: usually a few, but after a change of the whole field, all cells several times. scroll()
 /// remakes the cells along the field's border. changes() costs O(cells of the field).
 /// Memory: 4 bytes a sample (8 with tolerances), 4 more for each channel, and the cells' meshes.
 class LiveField {
@@ -129,14 +129,14 @@ class LiveField {
   ~LiveField();
 
   /// Replaces the samples of a window, row by row. Also replaces their tolerances and all channels, unless these
-  /// arguments are empty. Equal samples remake no cell.
+  /// arguments are empty. Unchanged samples remake no cell.
   Result<void> update(const LiveWindow& window, std::span<const float> heights, std::span<const float> tolerances = {},
                       std::span<const std::span<const float>> channels = {});
   /// Replaces the height of one sample.
   Result<void> set(int col, int row, float height);
   /// Moves the field over the ground by `cols` columns east and `rows` rows down. Samples that the field still covers
-  /// do not change and are not copied. New samples are voids until an update, without tolerances, and with channels of
-  /// 0.
+  /// do not change and are not copied. Until an update, new samples are voids without tolerances, and their channels
+  /// are 0.
   Result<void> scroll(int cols, int rows);
 
   /// Returns the cells that changed after the version `since`, including those that became empty; for 0, all cells with

@@ -53,22 +53,22 @@ struct Mesh {
 /// removed. Without meshoptimizer the order of triangles does not change. Cost: O(triangles).
 void optimize_order(Mesh& mesh, int threads = 1);
 
-/// Turns the mesh y up: (x, y, z) becomes (x, z, −y), also for normals, and metadata["up"] becomes "y". undo_y_up()
-/// reverses this if is_y_up(); metadata["up"] is then "z". Both functions are exact. All other functions except writers
-/// expect meshes with z up.
+/// Rotates the mesh so that y is up: (x, y, z) becomes (x, z, −y), also for normals, and metadata["up"] becomes "y".
+/// undo_y_up() reverses this if is_y_up(); metadata["up"] is then "z". Both functions are exact. All other functions
+/// except writers expect meshes with z up.
 void turn_y_up(Mesh& mesh);
 void undo_y_up(Mesh& mesh);
 bool is_y_up(const Mesh& mesh);
 
 /// Closes an open terrain mesh into a solid with a flat base at z = `base` (absolute) and vertical walls along all
-/// border edges. Triangles face outward, and each edge has exactly two triangles. Border vertices inside a straight
-/// border along x or y get no vertex below them. A part with n border vertices, c vertices below them, and h holes gets
-/// n + c triangles for its walls and c + 2h − 2 for its base. Where two parts of the domain meet in a single point, the
-/// vertex is duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
-/// show four walls along that vertical edge (build_solid() separates them). Normals are removed; a new vertex has the
-/// uvs, colours and channels of the vertex above it. REQUIRES: every edge has one or two triangles, all
-/// counter-clockwise from above; base below every vertex. Returns false, without change, if the base is not below every
-/// vertex, also in float32 offsets. Cost: O(n log n).
+/// border edges. Triangles face outward, and each edge has exactly two triangles. Vertices between the ends of a
+/// straight border along x or y get no vertex below them. A part with n border vertices, c vertices below them, and h
+/// holes gets n + c triangles for its walls and c + 2h − 2 for its base. Where two parts of the domain meet in a single
+/// point, the vertex is duplicated, so that each part has its own. The solid is then closed by its indices. In formats
+/// that store only positions (STL), four walls meet at that vertical edge; build_solid() separates them. Normals are
+/// removed; a new vertex has the uvs, colours and channels of the vertex above it. REQUIRES: every edge has one or two
+/// triangles; all triangles are counter-clockwise from above. Returns false, without change, unless the base is below
+/// every vertex, also as float32 offsets. Cost: O(n log n).
 bool add_base(Mesh& mesh, double base);
 
 // From a terrain to a printable solid: closed, and placed in millimetres.
@@ -90,12 +90,13 @@ bool undo_placement(Mesh& mesh);
 /// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
 /// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all parts except the first are
 /// moved away from it by a few units in the last place. Attributes and normals are removed. Fails with kUsage if the
-/// base is not below the lowest vertex (the message names its height), and with kPromise if the mesh is too fine for
-/// its size: rounding merges vertices, so that the result is not a closed 2-manifold. REQUIRES: as add_base(). Cost:
-/// O(n log n).
+/// base is not below the lowest vertex (the message names the vertex's height), and with kPromise if the mesh is too
+/// fine for its size: rounding merges vertices, so that the result is not a closed 2-manifold. REQUIRES: as add_base().
+/// Cost: O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
-/// Properties of a solid for readers that round positions to float32 and merge equal positions, as STL readers do.
+/// Properties of a solid as seen by readers that round positions to float32 and merge equal positions, as STL readers
+/// do.
 struct SolidFacts {
   std::uint64_t triangles = 0;
   std::uint64_t degenerate = 0;        ///< triangles without area
@@ -110,7 +111,7 @@ struct SolidFacts {
   bool is_solid() const {
     return triangles > 0 && degenerate == 0 && faulty_edges == 0 && pinched_vertices == 0 && inside_out == 0;
   }
-  /// "2 degenerate triangles, 4 faulty edges"; empty if it is a solid.
+  /// Such as "2 degenerate triangles, 4 faulty edges"; empty for a solid.
   std::string list_faults() const;
 };
 /// Measures a solid; exact except for volume and box. Cost: O(n log n).
@@ -130,16 +131,17 @@ struct Contour {
 /// mesh with z up. The mesh follows the raster to within its max error, so a contour lies where the raster is within
 /// `height` ± max error.
 ///
-/// A point on the edge from a, the lower end, to b is a + (b − a) · (height − z of a) / (z of b − z of a) in double. It
-/// is the same for both triangles of the edge. A vertex exactly at the height counts as above it, and its point is the
-/// vertex itself. So a plateau at the height has a line along its border where the ground around it is lower. A hollow
-/// whose bottom is at the height has no line; a ridge has one line around it. A single vertex or edge at the height
-/// with lower ground around it is omitted. No line branches, and lines touch only at vertices. Each line is closed, or
-/// ends on the border of the mesh or at an edge without exactly two triangles in opposite directions.
+/// The point on an edge from its lower end a to its upper end b is a + (b − a) · (height − z of a) / (z of b − z of a)
+/// in double. It is the same for both triangles of the edge. A vertex exactly at the height counts as above the height;
+/// its point is the vertex itself. So a plateau at the height has a line along its border where the ground around it is
+/// lower. A hollow whose bottom is at the height has no line; a ridge at the height has one line around it. A single
+/// vertex or edge at the height with lower ground around it is omitted. No line branches, and lines touch only at
+/// vertices. Each line is closed, or ends on the border of the mesh or at an edge without exactly two triangles in
+/// opposite directions.
 ///
 /// Lines are ordered by height, then by the first triangle that they cross. An open line begins at the end from which
 /// the ground rises on its left, a closed one in its first triangle. Deterministic. Fails with kUsage if the interval
-/// is not above 0 and finite, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range,
+/// is not finite and above 0, or so small that there are more than 1,000,000 heights. REQUIRES: indices in range,
 /// finite positions, fewer than 2^32 / 3 triangles. Cost: O(n log n + length of the lines). Memory: 20 bytes a triangle
 /// and 16 a segment.
 Result<std::vector<Contour>> find_contours(const Mesh& mesh, double interval);

@@ -4,7 +4,7 @@
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));
 //     scarp::SimplifyOptions options;
 //     options.goals.max_error = 20;                   // in the unit of the heights
-//     options.quality.effort = scarp::Effort::kHigh;  // a third of the triangles, in some ten times the time
+//     options.quality.effort = scarp::Effort::kHigh;  // a third of kFast's triangles, but much slower
 //     options.domain.outline_tolerance = 1;           // samples
 //     options.output.normals = true;
 //     for (const std::string& conflict : scarp::list_conflicts(dem, options)) std::printf("%s\n", conflict.c_str());
@@ -31,8 +31,8 @@ namespace scarp {
 /// The quantity that a budget minimises.
 enum class Objective {
   kMax,  ///< the max error
-  kRms,  ///< the RMS error (with channels: of the norm). The max error stays within max_error or, if not set, within
-         ///< that of fast effort. Only with a budget and more than fast effort; see simplify().
+  kRms,  ///< the RMS error (with channels: the RMS of the norm). The max error stays within max_error or, if that is
+         ///< not set, within the max error of fast effort. Requires a budget and more than fast effort; see simplify().
 };
 
 /// Combines errors in height and channels into one.
@@ -73,19 +73,19 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 /// high. The time step of a flow solver depends on this height; a long edge at a small angle does not increase the
 /// height.
 ///
-/// New vertices lie on samples where triangles are much larger than cells, else on halves, quarters, … 256ths of a
-/// sample, at the bilinear height of the raster. No two vertices share a lattice point. Vertices added for angles are
-/// at least 1/32 of a sample (or a quarter of max_edge, if less) from all other vertices, so refinement always ends.
-/// Outlines are split exactly; lines and cuts are split within a 256th of a sample, at their own heights. Efforts above
-/// fast then remove vertices that angles, lengths and the bound do not need, and move others. High effort also makes
-/// the mesh of normal effort, and max effort that of high effort. The mesh with fewer triangles is the result, unless
-/// the time is up.
+/// New vertices lie on samples where triangles are much larger than cells. Elsewhere they lie at multiples of a half, a
+/// quarter, … a 256th of a sample, at the bilinear height of the raster. No two vertices have the same position.
+/// Vertices added for angles are at least 1/32 of a sample (or a quarter of max_edge, if less) from all other vertices,
+/// so refinement always ends. Outlines are split exactly; lines and cuts are split within a 256th of a sample, at their
+/// own heights. Efforts above fast then remove vertices that angles, lengths and the bound do not need, and move
+/// others. High effort also makes the mesh of normal effort, and max effort that of high effort. The result is the mesh
+/// with fewer triangles, unless the time is up.
 ///
 /// Guarantees, up to the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3)
 /// each triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners
-/// of less than 60 degrees between lines or outline, theory predicts few or no such triangles. Beyond 20 degrees
-/// nothing is proven, but on rasters without lines hardly any remain up to 30 degrees. Some remain where two lines, or
-/// a line and a sample that the bound needs, are closer together than vertices for angles may be.
+/// of less than 60 degrees between lines or the outline, theory predicts few or no such triangles. Beyond 20 degrees
+/// nothing is proven, but on rasters without lines hardly any such triangles remain up to 30 degrees. Some remain where
+/// two lines, or a line and a sample that the bound needs, are closer together than vertices added for angles may be.
 struct ShapeGoals {
   /// Degrees, 0 … 33. DEFAULT: 0, any.
   double min_angle = 0;
@@ -95,11 +95,11 @@ struct ShapeGoals {
   /// the shortest edge at the vertex, d the distance along edges from the vertex to the far end of the long edge. s is
   /// at least half of a sample's longer side. DEFAULT: none.
   std::optional<double> grade = std::nullopt;
-  /// Shortest edge, in the units of the mesh's x and y, above 0, at most half of max_edge: the time step of a flow
-  /// solver depends on the shortest edge. All other goals have priority: shorter edges that they need remain, and are
-  /// counted in ShapeReport::shorter. Vertices added for max_edge and grade make no edge shorter than this, except
-  /// where they halve an edge that is too long. Efforts above fast first remove vertices at shorter edges. They never
-  /// make a shorter edge unless they remove one that is even shorter. DEFAULT: none.
+  /// Shortest edge, in the units of the mesh's x and y, above 0, at most half of max_edge. The time step of a flow
+  /// solver depends on it. All other goals have priority: shorter edges that they need remain, and are counted in
+  /// ShapeReport::shorter. Vertices added for max_edge and grade make no edge shorter than this, except where they
+  /// halve an edge that is too long. Efforts above fast first remove vertices at shorter edges. They never make an edge
+  /// shorter than min_edge unless they remove an even shorter one. DEFAULT: none.
   std::optional<double> min_edge = std::nullopt;
 
   bool any() const { return min_angle > 0 || max_edge || grade || min_edge; }
@@ -110,10 +110,10 @@ struct ShapeReport {
   double min_angle = 0;                        ///< degrees
   double shortest_edge = 0, longest_edge = 0;  ///< in units of x and y
   std::uint64_t below = 0;                     ///< triangles with an angle below min_angle
-  std::uint64_t forced = 0;                    ///< those of them at corners between lines or outline
-  std::uint64_t below_beside_lines = 0;        ///< the others with a corner on lines or outline
+  std::uint64_t forced = 0;                    ///< triangles of `below` at corners between lines or the outline
+  std::uint64_t below_beside_lines = 0;        ///< other triangles of `below` with a corner on a line or the outline
   std::uint64_t shorter = 0;                   ///< edges shorter than min_edge
-  std::uint64_t shorter_beside_lines = 0;      ///< those of them with an end on lines or outline
+  std::uint64_t shorter_beside_lines = 0;      ///< edges of `shorter` with an end on a line or the outline
   std::array<std::uint64_t, 12> histogram{};   ///< triangles by their smallest angle: 0 … 5 degrees, …, 55 … 60
 };
 
@@ -122,7 +122,7 @@ struct ShapeReport {
 /// The order in which candidates are inserted.
 enum class Order {
   kAuto,      ///< kDominant where it applies, else kGreedy
-  kGreedy,    ///< the worst sample of the whole raster first, as the paper's Algorithm III
+  kGreedy,    ///< the worst sample of the whole raster first, as in the paper's Algorithm III
   kDominant,  ///< the worst sample of each neighbourhood first, tile by tile: many times faster, on all threads, with
               ///< as many vertices. Requires one error, no channels, Delaunay edges; see simplify().
 };
@@ -130,23 +130,25 @@ enum class Order {
 /// The work after refinement: it makes a smaller mesh for the same bound or, with a budget, a better mesh of the same
 /// size.
 enum class Effort {
-  kAuto,    ///< kNormal; kFast if the greedy order is requested and no option such as min_shape needs more, or if the
-            ///< memory limit is too small for removal. Simplified::why_fast reports the reason.
-  kFast,    ///< none: the result is the refined mesh
-  kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles in a few times the time.
-            ///< Works strip by strip for samples not in memory; see simplify().
-  kHigh,  ///< removes more, and repairs broken bounds by flipping edges and moving vertices (see Vertices): a third of
-          ///< the triangles in some ten times the time of the greedy order. Allowed where kNormal is.
-  kMax,   ///< the same with a deeper search, in some hundred times the time. Ends when Run::is_time_up returns true, or
-          ///< without further gains. Allowed where kNormal is.
+  kAuto,    ///< kNormal; kFast if the greedy order is requested and no option such as min_shape needs more
+            ///< effort, or if the memory limit is too small for removal. Simplified::why_fast reports the reason.
+  kFast,    ///< no further work: the result is the refined mesh
+  kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles of kFast, but a few
+            ///< times slower. Works strip by strip for samples not in memory; see simplify().
+  kHigh,    ///< removes more vertices, and repairs broken bounds by flipping edges and moving vertices (see Vertices).
+            ///< Makes a third of kFast's triangles, in some ten times the time of the greedy order. Allowed where
+            ///< kNormal is.
+  kMax,     ///< the same with a deeper search, in some hundred times the time of kFast. Ends when Run::is_time_up
+            ///< returns true, or without further gains. Allowed where kNormal is.
 };
 
 /// Positions allowed for vertices.
 enum class Vertices {
   kAuto,     ///< kFree for kHigh and kMax in affine frames without channels; else kSamples
   kSamples,  ///< on samples, with their heights
-  kFree,     ///< also between samples, in steps of an eighth, with optimised float32 heights. Only for kHigh and kMax,
-             ///< in affine frames without channels; vertices on outlines of nodata, and corners, remain on samples
+  kFree,     ///< also between samples, in steps of an eighth of a sample, with optimised float32 heights. Only for
+             ///< kHigh and kMax, in affine frames without channels. Corners, and vertices on outlines of nodata, remain
+             ///< on samples
 };
 
 struct Quality {
@@ -162,13 +164,14 @@ struct Quality {
   std::optional<double> min_shape = std::nullopt;
   /// Goals for angles, edge lengths and their growth, for simulations: vertices are added until the goals hold, then
   /// removed while the goals hold (with a grade, in reverse order). With a budget, simplify() searches for an error, as
-  /// with lines. It fails with kUsage without a max error or a budget, for goals out of range, and for a budget too
-  /// small for the goals. DEFAULT: none.
+  /// with lines. It fails with kUsage with neither a max error nor a budget, for goals out of range, and for a budget
+  /// too small for the goals. DEFAULT: none.
   ShapeGoals shape = {};
   /// With an error goal, kAuto means kDominant if that order has no conflicts (list_conflicts()) and samples in memory
-  /// have no individual bounds; else kGreedy. With individual bounds, kDominant refines tiles to the largest bound,
-  /// then greedily to each sample's bound; if a sample has no bound, greedily from the start. With a budget, kDominant
-  /// searches for the error, or the factor of tolerances, whose mesh fits the budget. DEFAULT: kAuto.
+  /// have no individual bounds; else kGreedy. With individual bounds, kDominant first refines tiles to the largest
+  /// bound, then refines greedily to each sample's bound. If a sample has no bound, kDominant refines greedily from the
+  /// start. With a budget, kDominant searches for the error, or the factor of tolerances, whose mesh fits the budget.
+  /// DEFAULT: kAuto.
   Order order = Order::kAuto;
 };
 
@@ -214,12 +217,12 @@ struct Border {
   BeyondEdges beyond = {};
 };
 
-/// Returns the vertices of an edge, ascending: the fewest for a line from sample to sample that passes every sample
-/// within 511/512 of `tolerance` (or of the sample's value in `tolerances`, if given; +infinity: none). The remaining
-/// 1/512 allows for the rounding of positions. NaN is nodata: the first and the last sample of each run of heights are
-/// vertices. Among lines with equally few vertices, the one whose last vertices come earliest is returned. No segment
-/// spans more than 8192 steps, so the cost is at most O(samples · 8192), and usually a few steps a sample. The result
-/// is the same on every machine.
+/// Returns the vertices of an edge, ascending. They are the fewest for which the line through them differs from every
+/// sample by at most 511/512 of `tolerance` (or of the sample's value in `tolerances`, if given; +infinity: no bound).
+/// The remaining 1/512 allows for the rounding of positions. NaN is nodata: the first and the last sample of each run
+/// of heights are vertices. Among lines with equally few vertices, the one whose last vertices come earliest is
+/// returned. No segment spans more than 8192 steps, so the cost is at most O(samples · 8192), and usually a few steps a
+/// sample. The result is the same on every machine.
 std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double tolerance,
                                         std::span<const double> tolerances = {});
 
@@ -236,7 +239,7 @@ std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double t
 /// one, which depends on the mesh:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
-///   kDistance          from the nearest corner of the sample's triangle, in samples: attenuates errors near vertices
+///   kDistance          distance to the nearest corner of the triangle, in samples: attenuates errors near vertices
 /// Opposite neighbours count in pairs. An incomplete pair (nodata, beyond the border) is omitted, so a plane has no
 /// feature on its border either.
 struct Importance {
@@ -268,7 +271,7 @@ struct Batch {
   enum class Rule {
     kSequential,   ///< one at a time: the best meshes
     kConstant,     ///< all candidates that break their bound
-    kFraction,     ///< all candidates of at least `fraction` times the largest importance
+    kFraction,     ///< all candidates whose importance is at least `fraction` times the largest
     kIndependent,  ///< all candidates whose triangle the pass has not changed yet, worst first
   };
   Rule rule = Rule::kSequential;
@@ -277,25 +280,25 @@ struct Batch {
   friend bool operator==(const Batch&, const Batch&) = default;
 };
 
-/// Score of a diagonal in data-dependent triangulation: the diagonal of smaller score is kept (Scape's -sum, -max,
-/// -sqerr, -abn).
+/// Score of a diagonal in data-dependent triangulation: the diagonal with the smaller score is used (Scape's -sum,
+/// -max, -sqerr, -abn).
 enum class EdgeScore {
   kSum,      ///< sum of the two triangles' largest errors
   kMax,      ///< the larger of these two errors
   kSquares,  ///< sum of squared errors over both triangles
   kNormals,  ///< angle between the two triangles' normals (Dyn, Levin, Rippa 1990), in samples and units of z
-  kTight,    ///< sum of the squares of the two largest errors, with its own shape rule; flips around each new vertex
-             ///< are tried until none improves the score: the fewest triangles (docs/algorithm.md)
+  kTight,    ///< sum of the squares of the two largest errors, with its own shape rule. Edges around each new vertex
+             ///< are flipped until no flip improves the score. Makes the fewest triangles (docs/algorithm.md)
 };
 
 /// The choice of the diagonal of a quadrilateral.
 struct EdgeRule {
   bool data_dependent = false;  ///< false: Delaunay
   EdgeScore score = EdgeScore::kSum;
-  /// In [0, 1]. The quality of a diagonal is the product of area / longer side of the bounding box over its two
-  /// triangles. If the worse diagonal has more than `shape_threshold` times the quality of the better one, the score
-  /// decides; else the quality does. 0: purely data-dependent; 1: purely by shape. For kTight: the least 2·area /
-  /// longest side² of a triangle at which the score may decide. Negative: the score's default, 0.5 (kTight: 0.1).
+  /// In [0, 1]. The quality of a diagonal is the product, over its two triangles, of area / longer side of the bounding
+  /// box. If the worse diagonal has more than `shape_threshold` times the quality of the better one, the score decides;
+  /// else the quality does. 0: purely data-dependent; 1: purely by shape. For kTight: the least 2·area / longest side²
+  /// of a triangle at which the score may decide. Negative: the score's default, 0.5 (kTight: 0.1).
   double shape_threshold = -1;
   /// For triangles with few samples, errors for the *score* are measured against the bilinear interpolant on a lattice
   /// ⌈(width + height) / (2 · area · supersample)⌉ times finer. 0: off. Scape calls 0.8 moderate.
@@ -307,7 +310,7 @@ struct EdgeRule {
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
 };
 
-/// For simplify_by_paper().
+/// The strategy of simplify_by_paper().
 struct Strategy {
   Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
@@ -334,11 +337,11 @@ struct Output {
   /// Rounds positions to float32, as GLB and STL store them, so that the proof holds for the written file. False:
   /// positions are double, as in OBJ and PLY, and vertices lie on their samples in every affine frame. DEFAULT: true.
   bool float32_positions = true;
-  /// Rounds positions so that encode_glb() compresses them without moving them, if rows run along x (else this option
-  /// has no effect). x and y are always double. Heights are rounded to multiples of a power of two, at most 1/128 of
-  /// max_error and of a locked border's max error. To allow for this rounding, the engine uses a bound 1/256 below
-  /// max_error, unless the samples are such multiples. Heights are not rounded without a max_error, or where
-  /// tolerances, weights or channels bound errors. DEFAULT: false.
+  /// Rounds positions so that encode_glb() compresses them without moving them. Has no effect unless rows run along x.
+  /// x and y are always double. Heights are rounded to multiples of a power of two, at most 1/128 of max_error and of a
+  /// locked border's max error. To allow for this rounding, the engine uses a bound 1/256 below max_error, unless the
+  /// samples already are such multiples. Heights are not rounded without a max_error, or where tolerances, weights or
+  /// channels bound errors. DEFAULT: false.
   bool lattice = false;
   bool normals = false;  ///< fill Mesh::normals from the full-resolution samples. DEFAULT: false.
   bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.
@@ -356,7 +359,7 @@ struct SimplifyOptions {
 };
 
 /// The conflicts among the settings of a call of simplify(), each as a sentence: "X cannot be combined with Y: reason".
-/// simplify() fails with kUsage and the first of them. Empty: none. All are listed in docs/conflicts.md.
+/// If there are any, simplify() fails with kUsage and the first sentence. docs/conflicts.md lists all conflicts.
 std::vector<std::string> list_conflicts(const HeightField& field, const SimplifyOptions& options);
 
 }  // namespace scarp

@@ -39,10 +39,10 @@ struct PaperOptions {
 /// data-dependent triangulation). Guarantees, budgets and proof are those of simplify() with fast effort in the greedy
 /// order; with the default strategy the mesh is the same, byte for byte.
 ///
-/// Fails as simplify(); with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy out
-/// of range: no importance, one pass with batches or without a feature of the raster, a batch fraction not in (0, 1], a
-/// shape threshold above 1, supersampling below 0. Cost: that of simplify() in the greedy order; for Algorithms I and
-/// II, as listed at Algorithm; about ten times as long with data-dependent edges.
+/// Fails as simplify() does. Also fails with kUsage for a field without samples in memory, for Objective::kRms, and for
+/// a strategy out of range: no importance, one pass with batches or without a feature of the raster, a batch fraction
+/// not in (0, 1], a shape threshold above 1, supersampling below 0. Cost: that of simplify() in the greedy order; for
+/// Algorithms I and II, as listed at Algorithm; about ten times as long with data-dependent edges.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
 
 }  // namespace scarp

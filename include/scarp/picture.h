@@ -39,11 +39,11 @@ struct PreviewOptions {
   std::vector<Mark> marks = {};
 };
 
-/// Draws a hillshade of the field with the mesh's edges and the marks, in the proportions on the ground. Edges of
-/// triangles with only a few pixels fade. Nodata is white. Tints show heights; heights below 0 are blue, except in
-/// fields without a georeference. Pictures of 300 pixels and more have a legend below. Streamed samples are read once,
-/// from the top. Memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage for a frame in
-/// space, and as the field's source does.
+/// Draws a hillshade of the field with the mesh's edges and the marks, in true proportions. Edges of triangles that
+/// cover only a few pixels are faint. Nodata is white. Tints show heights; heights below 0 are blue, except in fields
+/// without a georeference. Pictures of 300 pixels and more have a legend below. Streamed samples are read once, from
+/// the top. Memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with kUsage for a frame in space,
+/// and as the field's source does.
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
 
 struct ErrorMapOptions {
@@ -55,7 +55,7 @@ struct ErrorMapOptions {
 };
 
 /// Draws signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, with a scale from −limit
-/// to +limit in z units. The mesh is below the samples where the map is blue, above where it is red.
+/// to +limit in z units. The mesh is below the samples where the map is blue, and above them where it is red.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, const ErrorMapOptions& options = {});
 /// Draws the same map from errors added row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
 class ErrorMap {
@@ -84,13 +84,13 @@ Picture draw_channels(const OwnedChannels& channels);
 /// Fills mesh.colors from the mesh's channels, with the colours of draw_channels().
 void color_by_channels(Mesh& mesh, const OwnedChannels& channels);
 
-/// Peak signal-to-noise ratio in dB over all pixels and colours; +infinity if equal. REQUIRES: equal sizes.
+/// Peak signal-to-noise ratio in dB over all pixels and colours; +infinity for equal pictures. REQUIRES: equal sizes.
 double find_psnr(const Picture& a, const Picture& b);
 
 /// Pictures side by side, aligned at the top, with white gaps of `gap` pixels.
 Picture place_side_by_side(std::span<const Picture> pictures, int gap = 8);
 
-/// Draws the edges of the mesh seen from above, to scale, north up, each once. Returns deterministic text.
+/// Draws each edge of the mesh once, seen from above, to scale, with north up. Returns deterministic text.
 std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
 std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 /// Unit normals of the field's surface, in its frame, as a tangent-space normal map (GlbOptions::normal_map): red x,
 /// green y, blue z, each as 255 (n + 1) / 2. The picture covers the raster; its longer side has `side` pixels, but at
 /// most one for each sample. A pixel is the mean of the normals of its samples. Nodata is (0, 0, 1). Streamed samples
-/// are read once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in
+/// are read once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and for a frame in
 /// space.
 Result<Picture> draw_normal_map(const HeightField& field, int side);
 

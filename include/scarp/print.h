@@ -27,8 +27,8 @@ struct PrintOptions {
   /// Height of the underside, in z units, below the lowest vertex. Not allowed with a thickness. DEFAULT: 2 % of the
   /// longest side below the lowest vertex.
   std::optional<double> base = std::nullopt;
-  /// Distance from the underside to the lowest vertex, above 0: in z units, or in print units. At most one of the two
-  /// is set.
+  /// Distance from the underside to the lowest vertex, above 0: `thickness` in z units, `printed_thickness` in print
+  /// units. At most one of them is set.
   std::optional<double> thickness = std::nullopt, printed_thickness = std::nullopt;
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
@@ -86,8 +86,8 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 /// Fails with kUsage for options in conflict or out of range (the message begins with the option's name, such as
 /// "base=300 is not …", or with "print tiles: " if the print cannot be cut in this way), for several tiles in a
 /// non-affine frame, and for a frame in space. Fails with kPromise if samples outside of gaps have no top above them,
-/// and if float32 positions cannot satisfy the max error. Fails as simplify(), build_solid() and measure() do. Cost:
-/// usually one or two runs of simplify(), at most four, each with a measure() of the print.
+/// and if float32 positions cannot satisfy the max error. Also fails as simplify(), build_solid() and measure() do.
+/// Cost: usually one or two runs of simplify(), at most four, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

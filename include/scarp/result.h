@@ -1,5 +1,5 @@
 // Handle failures: a call that can fail returns a Result, which holds a value or an Error of one sentence. Check the
-// Result by `if (!result)`, or forward the error by the macros below.
+// Result with `if (!result)`, or forward the error with the macros below.
 //
 // Example:
 //     const auto half = [](int n) -> scarp::Result<int> {
@@ -29,7 +29,7 @@ enum class ErrorKind {
   kInternal,   ///< a broken invariant: a bug in Scarp (exit 70)
 };
 
-/// An error of one sentence, which names its cause (file, pixel, option) and the remedy.
+/// An error as one sentence, which names its cause (file, pixel, option) and the remedy.
 struct Error {
   ErrorKind kind = ErrorKind::kInternal;
   std::string message;
@@ -40,7 +40,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// For `return fail(ErrorKind::kInput, "…")` in any function that returns a Result.
+/// Makes an Error: `return fail(ErrorKind::kInput, "…")` in any function that returns a Result.
 inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
   return tl::unexpected<Error>(Error{kind, std::move(message)});
 }

@@ -46,15 +46,15 @@ struct Memory {
 
 /// Settings of any call. Each function lists the members that it reads, unless it reads all.
 struct Run {
-  int threads = 0;  ///< 0: all cores, or one for work too short to share. Never changes the result. DEFAULT: 0.
+  int threads = 0;  ///< 0: all cores, but one for work too short to share. Never changes the result. DEFAULT: 0.
   Memory memory = {};
   ProgressCallback progress = {};
-  /// Polled often by simplify() with more than fast effort, from any thread. Once true, it must stay true. Removal then
-  /// ends, and the result is the mesh so far, which satisfies the bound but depends on the time. A search for a budget
-  /// ends with the best mesh so far. DEFAULT: never.
+  /// Polled often by simplify() with more than fast effort, from any thread. Once it has returned true, it must always
+  /// return true. Removal then ends, and the result is the mesh so far, which satisfies the bound but depends on the
+  /// time. A search for a budget ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
   /// Polled in the same way, for a caller that stops waiting. It is a request to end, not a deadline: max effort does
-  /// not search until then. Not polled with a budget. DEFAULT: never.
+  /// not continue until it returns true. Not polled with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };
 

@@ -1,5 +1,5 @@
-// Includes all public headers: for a program that reads, simplifies, measures and writes. docs/guide/library.md
-// describes the headers and the promise of stability.
+// Includes all public headers: for programs that read, simplify, measure and write. docs/guide/library.md describes the
+// headers and the promise of stability.
 //
 // Example:
 //     SCARP_TRY(const auto& dem, scarp::read_height_field("dem.tif"));

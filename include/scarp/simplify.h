@@ -41,7 +41,7 @@ struct Pass {
 enum class WhyFast {
   kNone,      ///< kAuto did not become kFast
   kOrder,     ///< Order::kGreedy was requested: the paper's algorithm, which only inserts
-  kStrategy,  ///< simplify_by_paper()
+  kStrategy,  ///< simplify_by_paper() was called
   kMemory,    ///< removal needs more than the memory limit allows
   kBudget,    ///< for the budget, normal effort found no better mesh than insertion
 };
@@ -80,8 +80,8 @@ struct Simplified {
   /// The max error, given or found, for which lines were inserted; without a max error, tolerance_factor times the
   /// largest finite tolerance.
   double lines_for = 0;
-  /// Number of triangles that the outline of the valid data needs, simplified by Domain::outline_tolerance. 0 where
-  /// every sample is valid, and with lines or a cutline.
+  /// Number of triangles that the outline of the valid data needs, after simplification by Domain::outline_tolerance. 0
+  /// if every sample is valid, and with lines or a cutline.
   std::uint64_t outline_triangles = 0;
   /// The value of outline_triangles at an outline tolerance of one sample. 0 where Domain::outline_tolerance is not 0,
   /// where outline_triangles is less than half of the mesh, and where samples are streamed.
@@ -95,15 +95,15 @@ struct Simplified {
 
 /// Inserts the worst samples (Garland & Heckbert 1995) into a constrained Delaunay triangulation of the valid data.
 ///
-/// Order: with an error goal, the locally dominant order refines tile by tile, on all threads. Where two tiles meet, an
-/// edge that is not Delaunay is kept if the bound needs it. Budgets and simplify_by_paper() use the greedy order
-/// (Algorithm III), on one thread. The guarantees are the same.
+/// Order: with an error goal, simplify() refines tile by tile, in the locally dominant order, on all threads. Where two
+/// tiles meet, an edge that is not Delaunay is kept if the bound needs it. Budgets and simplify_by_paper() use the
+/// greedy order (Algorithm III), on one thread. The guarantees are the same.
 ///
 /// Effort: after refinement, kNormal removes each vertex that the bound does not need. It considers all triangulations
 /// of the ring around the vertex and uses the one with the least squared error. The cheapest vertices are removed
-/// first. Once during removal, vertices move to better samples. The remaining vertices are samples with their own
+/// first. Once during removal, vertices move to better samples. In the end, all vertices are samples with their own
 /// heights, and no single vertex can be removed. kHigh also tries removals that break the bound. It then repairs the
-/// bound by flipping edges and moving vertices nearby, or undoes the removal. Free vertices satisfy max_error at their
+/// bound by flipping edges and moving nearby vertices, or undoes the removal. Free vertices satisfy max_error at their
 /// lattice positions. Where float32 cannot hold these exactly, the engine uses a bound 0.2 % below max_error. If
 /// rounding still breaks the bound, the run is repeated with vertices on samples, unless kFree was requested. With
 /// channels, vertices remain samples with their own values, and every effort bounds the norm.
@@ -123,15 +123,15 @@ struct Simplified {
 /// plus 2⁻²⁴ a channel). `ignored` samples have no bound.
 ///
 /// Budgets are upper bounds. With more than fast effort, a search finds the max error whose mesh uses 99 % of the
-/// budget (97 % where that would be slow). The search mostly needs two or three runs of that effort after a greedy run.
-/// The mesh uses less of the budget if the triangle count jumps because many samples share an error. The objective is
-/// never larger than in the greedy mesh for the same budget. A max_error that fits the budget ends the run, as does an
-/// error of 0 (kExact). Fast effort also uses this search with lines or shapes, in the dominant order, and if the field
-/// has a source.
+/// budget (97 % where 99 % would be slow). The search usually needs two or three runs of that effort after a greedy
+/// run. The mesh uses less of the budget if the triangle count jumps because many samples share an error. The objective
+/// is never larger than in the greedy mesh for the same budget. A max_error that fits the budget ends the run, as does
+/// an error of 0 (kExact). Fast effort also uses this search with lines or shapes, in the dominant order, and if the
+/// field has a source.
 ///
-/// With Objective::kRms there is no search. simplify() refines a mesh of four times the triangles, then removes the
-/// vertices whose removal raises the squared error least, until the mesh fits the budget. Then vertices are moved,
-/// removed and inserted while the squared error falls (Lindstrom and Turk's aim, with vertical errors). No error
+/// With Objective::kRms there is no search. simplify() refines a mesh of four times the allowed triangles, then removes
+/// the vertices whose removal raises the squared error least, until the mesh fits the budget. Then vertices are moved,
+/// removed and inserted while the squared error falls (Lindstrom and Turk's objective, for vertical errors). No error
 /// exceeds a cap: max_error if it fits the budget, else the max error that fast effort reaches for the budget. The
 /// whole budget is used, even if fewer triangles would satisfy max_error. With a source, shape goals or a locked
 /// border, the search above runs instead and returns the mesh of least RMSE.
@@ -212,9 +212,9 @@ Result<std::vector<Simplified>> simplify_levels(const HeightField& field, const 
 
 struct Suggestion {
   double share = 0;             ///< share of the full grid's triangles, above 0, at most 1
-  std::optional<double> error;  ///< max error in z units, of three significant digits: a default run with this error
-                                ///< stays within the share, and may use far less. None: the outline needs more
-                                ///< triangles.
+  std::optional<double> error;  ///< max error in z units, with three significant digits. A default run with this
+                                ///< error stays within the share; it may use far less. None if the outline needs
+                                ///< more triangles.
 };
 
 struct Suggestions {
@@ -227,14 +227,14 @@ struct Suggestions {
 /// then runs in the default order with the errors found, on all threads, and repeats a run with a larger error if the
 /// mesh exceeds its share. For fields of more than 2 million samples, the engine uses up to 16 evenly spaced windows of
 /// 256 × 256 samples, refined as one: the window with the largest error gets the next vertex. Windows have more border
-/// for their area than the raster, so the estimate is a little too large. The result depends on the samples and the
-/// shares only.
+/// relative to their area than the raster, so the estimate is a little too large. The result depends on the samples and
+/// the shares only.
 ///
-/// The field is borrowed during the call. Channels are ignored: errors are those of heights. `progress`: of the pass
-/// "estimate"; may be empty. Fails with kUsage for no shares, for shares outside (0, 1] or not ascending, and for a
-/// field without samples in memory; with kInput if no cell is valid; with kCancelled. Memory: that of a greedy run and
-/// a default run of simplify() on the samples used. Cost: about two default runs on the samples used, and one for each
-/// share.
+/// The field is borrowed during the call. Channels are ignored: errors are those of heights. `progress` receives the
+/// pass "estimate"; it may be empty. Fails with kUsage for no shares, for shares outside (0, 1] or not ascending, and
+/// for a field without samples in memory; with kInput if no cell is valid; with kCancelled. Memory: that of a greedy
+/// run and a default run of simplify() on the samples used. Cost: about two default runs on the samples used, and one
+/// for each share.
 Result<Suggestions> suggest_errors(const HeightField& field, std::span<const double> shares,
                                    const ProgressCallback& progress = {});
 

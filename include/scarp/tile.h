@@ -6,8 +6,8 @@
 // neighbours still have the same vertices, heights and normals on their common edge.
 //
 // NODES. The source is sampled at the nodes of a lattice, with `cells` cells a side for tiles of the finest level.
-// Tiles of the plan's block level and below use all nodes in their area. The max error of a tile holds at all its
-// nodes.
+// Tiles of the plan's block level and of finer levels use all nodes in their area. The max error of a tile holds at all
+// its nodes.
 //
 // A LOCAL GRID lies on a plane. Its nodes are the samples of one raster, and tiles end at the raster's edge. All terms
 // for the earth's curvature are 0.
@@ -72,13 +72,13 @@ using DegreeLine = std::vector<std::array<double, 2>>;
 enum class GridKind {
   kGeographic,  ///< TMS in degrees: two tiles of 180° at level 0, side by side
   kMercator,    ///< TMS in Web Mercator: one tile at level 0, up to ±85.0511°
-  kLocal,       ///< on a plane: one square at level 0, with the raster's south-western corner
+  kLocal,       ///< on a plane: one square at level 0, whose south-western corner is the raster's
 };
 
 struct LocalRaster {
   std::int32_t cols = 0, rows = 0;  ///< samples, at least 2 each
   double cell_x = 1, cell_y = 1;    ///< metres, or other units; rounded to 29 bits, so that positions are exact
-  std::int64_t side = 0;            ///< cells along a side of the square: those of a tile of the finest level, times a
+  std::int64_t side = 0;            ///< cells along a side of the square: as for a tile of the finest level, times a
                                     ///< power of two
 
   /// The sample next to the middle, from which positions are counted. If `side` exceeds 32768, positions of all levels
@@ -117,7 +117,7 @@ struct TileGrid {
   /// The finest level of a local grid, whose nodes are the raster's samples.
   int finest_local(int cells) const;
 
-  /// "geographic", "mercator", "local". For a local grid, find() sets the kind only.
+  /// "geographic", "mercator", "local". For a local grid, find() sets only the kind.
   std::string_view name() const;
   static std::optional<TileGrid> find(std::string_view name);
   /// The grid's name in layer.json; "" for a local grid.
@@ -133,22 +133,22 @@ struct TileGrid {
   /// Length of a tile's side in the units of its vertices' u and v. On local grids, nodes lie at whole units.
   std::int32_t side_units() const { return is_flat() ? static_cast<std::int32_t>(LocalRaster::kPlaces) : 32767; }
 
-  /// Full turns, in degrees. Each turn, added to a tile's bounds, results in a copy of the tile that a source may
-  /// cover. The last column of tiles is next to the first.
+  /// Full turns, in degrees. Adding a turn to a tile's bounds results in a copy of the tile that a source may cover.
+  /// The last column of tiles is next to the first.
   std::span<const double> turns() const;
   /// True if the first and the last row of nodes are each a pole: a single point.
   bool has_poles() const { return kind == GridKind::kGeographic; }
   /// True if rows of nodes are evenly spaced in degrees.
   bool has_even_rows() const { return kind != GridKind::kMercator; }
-  /// Nodes that may have heights: on a local grid, those of the raster and, beyond an edge without nodes, the next
-  /// ones; on other grids all nodes, even beyond a full turn.
+  /// Nodes that may have heights: on a local grid, those of the raster and, where its edge has no nodes, the next ones
+  /// beyond it; on other grids all nodes, even beyond a full turn.
   NodeRange land_columns(std::int64_t per_turn) const;
   NodeRange land_rows(std::int64_t per_turn) const;
 
   DegreeBox bounds() const;
   DegreeBox bounds_of(TileId id) const;
-  /// Latitude of a row of nodes. Rows count from 0, the northern end, to `last_row`, a power of two. The same bits on
-  /// every machine.
+  /// Latitude of a row of nodes. Rows count from 0, the northern end, to `last_row`, a power of two. Returns the same
+  /// bits on every machine.
   double latitude(std::int64_t row, std::int64_t last_row) const;
   /// Longitude of a column of nodes, −180 … 180, the same bits after each turn.
   double longitude(std::int64_t col, std::int64_t per_turn) const {
@@ -158,7 +158,7 @@ struct TileGrid {
   }
   /// Distance between two rows of nodes in degrees, divided by that between two columns, at a latitude.
   double row_step(double latitude) const;
-  /// Degrees between two neighbouring nodes, the larger of both directions.
+  /// Degrees between two neighbouring nodes, in the direction with the larger step.
   double largest_step(std::int64_t per_turn) const {
     return (is_flat() ? static_cast<double>(local.side) : 360) / static_cast<double>(per_turn);
   }
@@ -206,8 +206,8 @@ class HeightZero {
 };
 
 /// The geoid EGM96 above the ellipsoid of WGS 84, built in: a grid of 15 minutes of arc, in whole centimetres, with
-/// bilinear interpolation. Heights are within 6 mm of PROJ's for the same grid (egm96_15.gtx) everywhere, and the same
-/// bits on every machine. Cost: 20 ms and 4 MB at the first call.
+/// bilinear interpolation. Heights are within 6 mm of PROJ's for the same grid (egm96_15.gtx) everywhere, and have the
+/// same bits on every machine. Cost: 20 ms and 4 MB at the first call.
 std::shared_ptr<const HeightZero> egm96();
 
 /// A reference surface as a grid of heights.
@@ -218,9 +218,9 @@ struct ZeroGrid {
 };
 
 /// Interpolates bilinearly between the four nodes around a position; up to half a cell outside the grid, the outer
-/// nodes are used. The surface is unknown where one of these nodes is unknown. After the last column, a grid in degrees
-/// around the whole globe continues with the first. Fails with kUsage for a wrong number of heights, and as
-/// make_node_source().
+/// nodes are used. The surface is unknown where one of the nodes used is unknown. After the last column, a grid in
+/// degrees around the whole globe continues with the first. Fails with kUsage for a wrong number of heights, and as
+/// make_node_source() does.
 Result<std::shared_ptr<const HeightZero>> make_grid_zero(ZeroGrid grid);
 
 // Heights by position, from which tiles are made.
@@ -243,17 +243,17 @@ class NodeSource {
   virtual NodeWindow land(const NodeWindow& window) const { return window; }
   /// True if nodes are interpolated from samples that visit_samples() passes. DEFAULT: false.
   virtual bool has_samples() const { return false; }
-  /// Passes all samples in the box, and others around it, to `visit`, some of them twice. Longitudes continue beyond
-  /// 180° if the box does. A row is valid only during its visit. Several threads may call it at once. Fails as the
-  /// samples' source does. DEFAULT: passes none.
+  /// Passes all samples in the box and some samples around it to `visit`, some of them twice. Longitudes continue
+  /// beyond 180° if the box does. A row is valid only during its visit. Several threads may call it at once. Fails as
+  /// the samples' source does. DEFAULT: passes none.
   virtual Result<void> visit_samples(const DegreeBox& /*box*/, const SampleVisitor& /*visit*/) const { return {}; }
 };
 
 /// Returns nodes interpolated between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node
-/// are heights, else bilinear between the heights among the nearest four. A node has no height where the nearest sample
-/// has none. With `from_degrees`, the position of a node in the raster is exact at each 16th node and interpolated in
-/// between, as is the position of a sample on the globe. Borrows the field's samples. Fails with kUsage for an affine
-/// map without an inverse.
+/// are heights, else bilinear between the valid ones of the four nearest samples. A node has no height where the
+/// nearest sample has none. With `from_degrees`, the position of a node in the raster is exact at each 16th node and
+/// interpolated in between, as is the position of a sample on the globe. Borrows the field's samples. Fails with kUsage
+/// for an affine map without an inverse.
 Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
 
 /// Returns the samples of a local grid's raster, with north up, as nodes of the finest level; coarser nodes are every
@@ -266,15 +266,16 @@ std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::sh
 
 struct StackedSource {
   const NodeSource* nodes = nullptr;  ///< borrowed
-  DegreeBox covered = {};             ///< no heights elsewhere
+  DegreeBox covered = {};             ///< no node elsewhere has a height
 };
 /// Several sources as one: a node has the height of the first source with a height there. visit_samples() passes
-/// samples only if there is one source. Cost: each source reads a rectangle around the nodes still without a height.
+/// samples only if there is one source. Cost: each source reads a rectangle around the nodes that do not have a height
+/// yet.
 std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
 
 /// The rectangle in degrees that the raster covers, with half a cell around the outer samples. Fails with kInput if the
-/// raster's outline has no longitude or latitude, or lies beyond a pole or 720 degrees from Greenwich. `to_degrees`:
-/// from x and y to degrees, null as in RasterPlace.
+/// raster's outline has no longitude or latitude, or lies beyond a pole or more than 720 degrees from Greenwich.
+/// `to_degrees` maps x and y to degrees; it may be null as in RasterPlace.
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
                                   const PointTransform* to_degrees);
 
@@ -291,8 +292,8 @@ struct PyramidSettings {
   int cells = 128;
   /// The finest level. DEFAULT (−1): the first level whose nodes are at most 1.1 cells of the source apart.
   int max_zoom = -1;
-  /// Max error of the finest level in metres; above 0. DEFAULT (0): a quarter of its geometric error, or the precision
-  /// of the format for such heights if that is larger.
+  /// Max error of the finest level in metres; above 0. DEFAULT (0): a quarter of the level's geometric error, or the
+  /// precision of the format for such heights if that is larger.
   double max_error = 0;
   /// A level's max error is its geometric error divided by this quality, or max_error if that is larger. At least 1/2.
   /// DEFAULT: 2.
@@ -301,20 +302,20 @@ struct PyramidSettings {
   Effort effort = Effort::kNormal;
   /// Height for nodes without a height, in metres. DEFAULT: 0, the ellipsoid.
   float background = 0;
-  /// True if each tile with a child has all four children, even without heights. Where a child is missing, clients of
-  /// 3D Tiles show a hole; clients of quantized-mesh show that part of the parent. DEFAULT: false.
+  /// True if each tile with a child has all four children, even those without heights. Where a child is missing,
+  /// clients of 3D Tiles show a hole; clients of quantized-mesh show that part of the parent. DEFAULT: false.
   bool has_siblings = false;
   Geodetic ellipsoid = {};
   TileGrid grid = {};  ///< DEFAULT: geographic.
-  /// Blocks that do not touch this box are treated as nodata. Tiles of other blocks equal those of the whole pyramid.
-  /// DEFAULT: all.
+  /// Blocks that do not touch this box are treated as nodata. The tiles of the other blocks equal those of the whole
+  /// pyramid. DEFAULT: all.
   std::optional<DegreeBox> only = {};
   /// Largest size of a stored tile. For larger tiles, the max error of the interior (not of the border) is doubled
   /// until the tile fits or only its border remains. DEFAULT: 0, any.
   std::uint64_t max_tile_bytes = 0;
   /// True if max errors also hold at the source's samples, each at its own position. The finest level then has nodes
-  /// half as far apart, since triangles cannot follow samples far from the surface between nodes. REQUIRES then: a
-  /// source that has_samples(). DEFAULT: false.
+  /// half as far apart, since triangles cannot follow samples that are far from the surface between nodes. REQUIRES
+  /// then: a source that has_samples(). DEFAULT: false.
   bool binds_samples = false;
   /// Lines that become edges of all tiles' meshes. DEFAULT: none.
   std::vector<DegreeLine> lines = {};
@@ -330,14 +331,14 @@ struct PyramidLevel {
 
 struct PlannedSource {
   DegreeBox covered = {};
-  int max_zoom = 0;  ///< the finest level that it needs
+  int max_zoom = 0;  ///< the finest level that the source needs
 };
 
 /// The resolved settings: everything on which a tile depends, except its nodes.
 struct PyramidPlan {
   int cells = 128;
   int block_level =
-      0;  ///< tiles of this level and below use all nodes; those above use nodes reduced to 256 cells a side
+      0;  ///< tiles of this level and of finer ones use all nodes; coarser tiles use nodes reduced to 256 cells a side
   std::vector<PyramidLevel> levels;  ///< 0 … the finest
   double least_quantum = 0;          ///< the finest quantum that can represent the source's heights; 0 in a plan read
                                      ///< from a file
@@ -364,7 +365,7 @@ struct PyramidPlan {
 struct TerrainTile {
   TileId id;
   std::int32_t units = 32767;                        ///< length of the tile's side, as TileGrid::side_units()
-  std::vector<std::uint16_t> u, v;                   ///< 0 … units from west, from south
+  std::vector<std::uint16_t> u, v;                   ///< 0 … units: u from the west, v from the south
   std::vector<std::int32_t> heights;                 ///< in quanta of the level
   std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred or on the plane
   std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
@@ -415,14 +416,14 @@ struct LevelSummary {
   /// smaller proven error.
   std::uint64_t over = 0;
   std::uint64_t coarser = 0;         ///< tiles whose max error exceeds the level's because of plan.max_tile_bytes
-  std::uint64_t oversized = 0;       ///< those of them whose borders already exceed plan.max_tile_bytes
+  std::uint64_t oversized = 0;       ///< tiles of `coarser` whose borders already exceed plan.max_tile_bytes
   std::uint64_t lines_left_out = 0;  ///< sum of TerrainTile::lines_left_out
 };
 
 struct PyramidReport {
   bool has_heights = false;                       ///< true if some node has a height
   std::vector<LevelSummary> levels;               ///< 0 … the finest
-  std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
+  std::vector<std::vector<std::uint64_t>> tiles;  ///< for each level, y · 2^32 + x of its tiles, sorted
 };
 
 struct BlockReport {
@@ -466,8 +467,7 @@ struct QuantizedMesh {
   }
 };
 
-/// Reads a quantized-mesh file. Fails with kInput for other or damaged files; never trusts a length or an index in the
-/// file.
+/// Reads a quantized-mesh file. Fails with kInput for other or damaged files; checks each length and index in the file.
 Result<QuantizedMesh> decode_quantized_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
 struct SourceFacts {
@@ -490,16 +490,16 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const Pyram
 /// Replaces the plan's lines, for its levels and covered area.
 void set_lines(PyramidPlan& plan, std::vector<DegreeLine> lines);
 
-/// The finest level that a source needs in a tile, or within reach of the tile's normals; −1 if no source has heights
-/// there.
+/// The finest level that a source needs in a tile, or around it as far as the tile's normals reach; −1 if no source has
+/// heights there.
 int finest_level(const PyramidPlan& plan, TileId id);
 
 /// Makes the tile as stored in a set, within plan.max_tile_bytes if possible. The tile depends only on id, plan, nodes
 /// and encoder.
 ///
-/// At plan.block_level and below, the tile's node_error is at most its max error, except next to a cliff that positions
-/// in 32767ths of the tile cannot follow. If the plan binds samples, the same holds for its source_error, except at
-/// samples too far from the surface between the nodes around them.
+/// At plan.block_level and below, the tile's node_error is at most its max error. An exception is a cliff that the
+/// tile's positions, rounded to 32767ths of its side, cannot follow. If the plan binds samples, the same holds for
+/// source_error, except at samples that are too far from the surface between the nodes around them.
 ///
 /// Above plan.block_level, only the nodes that the tile's mesh needs are read. This mesh is that of finish_pyramid(),
 /// without the proof: node_error is NaN, since the nodes in between were not examined. Cost: some 70,000 nodes, read
@@ -510,7 +510,7 @@ Result<KeptTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource&
 /// The same without a limit on the tile's bytes.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
-/// Lists the tiles of make_pyramid() without making them: by level, rows and columns, y · 2^32 + x, sorted. Reads each
+/// Lists the tiles of make_pyramid() without making them: for each level, y · 2^32 + x of its tiles, sorted. Reads each
 /// node once. Without a source, it reads no nodes, and lists tiles below the blocks if the plan's source may cover
 /// them. Progress: pass "look". Fails as the source does, and with kCancelled.
 Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
@@ -523,9 +523,9 @@ std::vector<TileId> find_blocks(const PyramidPlan& plan);
 /// Approximate relative cost of a block: 1, plus 1000 times the share of it that the source may cover.
 std::uint64_t block_cost(const PyramidPlan& plan, TileId block);
 
-/// Makes the tiles of one block that have heights, their siblings if the plan requires siblings, and always the block's
-/// own tile. A tile's bytes are those of make_tile(). Tiles finer than level `deepest`, and their errors in the report,
-/// are omitted; all other results are those of the whole block. REQUIRES: find_blocks() lists the block.
+/// Makes the tiles with heights in one block, their siblings if the plan requires siblings, and always the block's own
+/// tile. A tile's bytes are those of make_tile(). Tiles finer than level `deepest`, and their errors in the report, are
+/// omitted; all other results are those of the whole block. REQUIRES: find_blocks() lists the block.
 ///
 /// Cost: each node is read once. Memory: that of the nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
 /// make_tile() and the sink do, and with kCancelled.
@@ -537,9 +537,10 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
 /// are read. Memory: as make_block(). Fails as the source does.
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads = 0);
 
-/// Makes the tiles above the blocks from nodes reduced to 256 cells a side. The reduction keeps error bounds, so the
+/// Makes the tiles above the blocks from nodes reduced to 256 cells a side. The reduction stores error bounds, so the
 /// tiles' node_error is an upper bound for all nodes below. REQUIRES: `blocks` are those of find_blocks(), in any
-/// order. Returns the report of all tiles. Progress and failures as make_block(), and kInput for a damaged `reduced`.
+/// order. Returns the report of all tiles. Progress and failures are those of make_block(). Also fails with kInput for
+/// a damaged `reduced`.
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run = {});
 

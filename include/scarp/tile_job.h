@@ -59,7 +59,7 @@ struct Datum {
   int epsg = 0;            ///< code for kEpsg: 3855 is EGM2008
   std::string geoid = {};  ///< file for kGeoid: a raster of the surface's heights above the ellipsoid, in metres (GTX,
                            ///< GeoTIFF, …)
-  /// Replaces the ellipsoid of the CRS; longitude and latitude are then the raster's own.
+  /// Replaces the ellipsoid of the CRS; the raster's longitudes and latitudes are then used unchanged.
   std::optional<Geodetic> ellipsoid = std::nullopt;
 };
 
@@ -80,7 +80,7 @@ struct RasterOnPlane {
   std::string units;                  ///< unit of cell_x and cell_y: "metre", "cell", or "unit of the raster's x and y"
   std::string vertical;               ///< the zero of the heights, in words
   std::optional<PlaneOnGlobe> globe;  ///< nothing for a raster without a position on the globe
-  Geodetic ellipsoid;                 ///< the ellipsoid touched by the plane, with `globe`
+  Geodetic ellipsoid;                 ///< the ellipsoid that the plane touches; only with `globe`
   std::string body;                   ///< see RasterOnGlobe::body
   std::vector<std::string> warnings;  ///< warns if the plane lies far from the globe
   /// The position of each sample on the globe, if any.
@@ -124,17 +124,17 @@ std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& wr
 
 struct TileJob;
 
-/// Rasters in order of priority, open as one source of nodes on the globe: a node has the height of the first raster
+/// Rasters in order of priority, opened as one source of nodes on the globe: a node has the height of the first raster
 /// with a height there. Each raster has its own CRS, cells, nodata value and datum. Alternatively, one raster on a
 /// plane.
 class GlobeRaster {
  public:
   /// `mosaics`: at least one; the rasters of each mosaic lie on one grid, see find_mosaics(). Reads them, or streams
   /// them from their files if memory is too small, as open_height_field() does; options.crs and options.view.more are
-  /// ignored. Fails as open_height_field() and place_on_globe() do; with kUsage for options.view with several mosaics,
-  /// and for a datum that contradicts a raster's CRS; with kInput for rasters of several planets.
+  /// ignored. Fails as open_height_field() and place_on_globe() do. Also fails with kUsage for options.view with
+  /// several mosaics, and for a datum that contradicts a raster's CRS, and with kInput for rasters of several planets.
   ///
-  /// `grid`: std::nullopt selects the grid that suits the first raster, grid_for(). A local grid needs exactly one
+  /// `grid`: std::nullopt selects the grid that suits the first raster: grid_for(). A local grid needs exactly one
   /// mosaic (else kUsage), which place_on_plane() positions.
   static Result<std::unique_ptr<GlobeRaster>> open(const std::vector<std::vector<std::string>>& mosaics,
                                                    const ReadOptions& options, const Datum& datum,
@@ -143,7 +143,7 @@ class GlobeRaster {
   GlobeRaster& operator=(const GlobeRaster&) = delete;
   ~GlobeRaster();
 
-  /// Heights above the ellipsoid. Valid while this object lives, until water is added.
+  /// Heights above the ellipsoid. Valid until water is added or this object is destroyed.
   const NodeSource& nodes() const;
   /// Adds the plan's water, if any, to nodes(). REQUIRES: called once, with a plan for this raster.
   void add_waters(const PyramidPlan& plan);
@@ -170,7 +170,7 @@ class GlobeRaster {
 struct FileStamp {
   std::string path;  ///< absolute, if it names a file
   std::uint64_t size = 0;
-  std::int64_t changed = 0;   ///< nanoseconds since 1970; size and time are 0 if it is not a file, such as a URL
+  std::int64_t changed = 0;   ///< nanoseconds since 1970; like the size, 0 for a path that is not a file, such as a URL
   std::uint64_t content = 0;  ///< a hash of its bytes; 0: not read
 
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
@@ -213,7 +213,7 @@ struct TileJob {
   std::vector<std::uint32_t> mosaics;  ///< number of consecutive rasters in each mosaic
   std::vector<FileStamp> files;        ///< other files that the rasters use, such as the sources of a VRT, and the
                                        ///< files of water
-  ReadOptions reading;  ///< reads band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
+  ReadOptions reading;  ///< only band, nodata, decode, z_scale, z_offset, z_unit, fill_distance, void_side and view
   Datum datum;
   FileStamp geoid;    ///< stamp of datum.geoid, if given
   WaterFiles waters;  ///< sources of plan.waters
@@ -221,14 +221,14 @@ struct TileJob {
   std::optional<TileDrape> drape = std::nullopt;
   PyramidPlan plan;
   LayerFacts facts;   ///< except the version
-  std::string parts;  ///< folder of the parts of the earlier plan; empty without one
+  std::string parts;  ///< folder of the parts of the earlier plan; empty if there is none
   /// Cost of each block of find_blocks(), from survey_blocks(); empty: not surveyed.
   std::vector<std::uint32_t> costs;
   std::optional<TileEstimate> estimate;  ///< not part of any key
   std::uint64_t filled = 0;              ///< missing samples that were filled; not part of any key
 };
 
-/// The encoder of the job's tiles. Opens the image, if any. Borrows the job. Fails as open_globe_image().
+/// The encoder of the job's tiles. Opens the image, if any. Borrows the job. Fails as open_globe_image() does.
 Result<TileEncoder> open_tile_encoder(const TileJob& job);
 
 /// Sets job.rasters and job.files: the files of these rasters, by list_files().
@@ -242,7 +242,7 @@ Result<void> find_waters(TileJob& job, GlobeRaster& raster);
 std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
 /// Reads the text of a plan file. Fails with kInput unless it is a plan of this version of Scarp.
 Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
-/// decode_tile_job() of a file. Also fails with kInput if the file cannot be read.
+/// Reads a plan file with decode_tile_job(). Also fails with kInput if the file cannot be read.
 Result<TileJob> read_tile_job(const std::string& path);
 /// The rasters grouped into mosaics, for GlobeRaster::open().
 std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
@@ -260,9 +260,9 @@ std::optional<std::string> find_changed(const TileJob& job);
 /// Fails with kInput if find_changed() returns a file.
 Result<void> check_rasters(const TileJob& job);
 
-/// A job for changed or other rasters with the levels and settings of an earlier job, so that unchanged tiles keep
-/// their bytes. `now`: a job for these rasters, with the earlier job's finest level and max error. Fails with kUsage if
-/// the rasters' heights need coarser steps than the earlier levels have.
+/// Makes a job for changed or other rasters with the levels and settings of an earlier job, so that unchanged tiles
+/// keep their bytes. `now`: a job for these rasters, with the earlier job's finest level and max error. Fails with
+/// kUsage if the rasters' heights need coarser steps than the earlier levels have.
 Result<TileJob> follow_job(const TileJob& earlier, TileJob now);
 
 /// Makes `samples` tiles of the finest level, spread evenly over the blocks, on one thread. Fails as make_tile() does.
@@ -283,8 +283,8 @@ struct Shard {
 /// also valid for other stamps.
 class TileParts {
  public:
-  /// Reads all parts in the folder, which need not exist. Fails with kInput for parts of other settings and unreadable
-  /// parts.
+  /// Reads all parts in the folder, which need not exist. Fails with kInput for parts of other settings and for
+  /// unreadable parts.
   static Result<std::unique_ptr<TileParts>> open(const std::string& folder, const TileJob& job);
   TileParts(const TileParts&) = delete;
   TileParts& operator=(const TileParts&) = delete;
@@ -296,7 +296,7 @@ class TileParts {
   bool has_any(TileId block) const;
   /// True if the block exists for these nodes.
   bool has_nodes(TileId block, std::uint64_t nodes) const;
-  /// Rereads the parts of one shard. Fails as open().
+  /// Rereads the parts of one shard. Fails as open() does.
   Result<void> look_again(Shard shard);
   /// Returns the report of make_block(), and passes the block's tiles in order to `put`. Fails with kInput for a
   /// damaged part, naming the file, and as `put` does.
@@ -312,18 +312,18 @@ class TileParts {
 
 struct PartsReport {
   std::uint64_t blocks = 0;     ///< made now
-  std::uint64_t there = 0;      ///< blocks of its shard made before, or meanwhile by another process
-  std::uint64_t unchanged = 0;  ///< made before from other files with the same nodes
+  std::uint64_t there = 0;      ///< blocks of the shard that were made earlier, or meanwhile by another process
+  std::uint64_t unchanged = 0;  ///< blocks made earlier from other files with the same nodes
   std::uint64_t tiles = 0, bytes = 0;
   bool has_company = false;  ///< true if another process was making the same shard when this process began
 };
 
 /// Makes the missing blocks of a shard, and appends them to a new file of the folder, which is created if needed. Each
-/// block is on the disk before the next begins. `only`: omits blocks that do not touch this box. If a block exists from
-/// other sources, its nodes are read, and the block is remade if they differ. Two processes may make one shard at once:
-/// the second one begins at the shard's end. Progress: pass "tiles"; `tell` receives the report after each block. Fails
-/// as make_block(), as check_rasters() after each block (then the block is discarded), with kOutput if the file cannot
-/// be written, and with kCancelled. Finished blocks remain.
+/// block is written to disk before the next one is made. `only`: omits blocks that do not touch this box. If a block
+/// exists that was made from other sources, its nodes are read, and the block is remade if they differ. Two processes
+/// may make one shard at once; the second one starts from the shard's end. Progress: pass "tiles"; `tell` receives the
+/// report after each block. Fails as make_block() does, and as check_rasters() does after each block (which is then
+/// discarded). Also fails with kOutput if the file cannot be written, and with kCancelled. Finished blocks remain.
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
                                const Run& run = {}, const std::optional<DegreeBox>& only = {},
                                const std::function<void(const PartsReport&)>& tell = {});

@@ -64,13 +64,13 @@ class TileSetWriter {
 /// Fails with kUsage for a name that fits neither a folder nor a container, such as that of a mesh, an image or a tile.
 /// Names that end with a slash and names of existing folders are always folders.
 Result<void> check_set_name(const std::string& path);
-/// Creates a set under a temporary name in the folder of `path`, until finish(). A folder is first named
+/// Creates a set. Until finish(), it has a temporary name in the folder of `path`. A folder is first named
 /// ".scarp-tiles-…"; the next set of the same name removes such folders of killed processes on this machine. One-file
-/// containers need the space of the set twice until finish(). Memory: 24 bytes a tile, with PMTiles twice that. The
+/// containers need twice the space of the set until finish(). Memory: 24 bytes a tile, with PMTiles twice that. The
 /// bytes of the finished set do not depend on the order of its tiles and files. Fails with kOutput if nothing can be
-/// created, and if `path` exists. Two existing paths are accepted: an empty folder for a set in a folder and, with
-/// `overwrite`, a set of Scarp (recognised by "layer.json" or "tileset.json") with nothing else in it. Also fails as
-/// check_set_name().
+/// created, and if `path` exists, with two exceptions: an empty folder for a set in a folder and, with `overwrite`, a
+/// set of Scarp (recognised by "layer.json" or "tileset.json") with nothing else in it. Also fails as check_set_name()
+/// does.
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
 
 /// Reads a finished set. Several threads may read at once.
@@ -78,22 +78,22 @@ class TileSetReader {
  public:
   virtual ~TileSetReader() = default;
   virtual TileFormat format() const = 0;
-  /// By level: rows and columns of its tiles, y · 2^32 + x, sorted, as PyramidReport::tiles.
+  /// For each level, y · 2^32 + x of its tiles, sorted, as in PyramidReport::tiles.
   virtual const std::vector<std::vector<std::uint64_t>>& tiles() const = 0;
   /// Names of the other files, sorted.
   virtual std::vector<std::string> files() const = 0;
   /// The bytes as stored, compressed or not. Fails with kInput if there is no such tile, or the container is damaged.
   virtual Result<std::vector<std::uint8_t>> read_tile(TileId id) const = 0;
   virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
-  /// True if the container declares that all tiles are compressed with gzip; nothing if it does not declare this.
+  /// True if the container declares that all tiles are compressed with gzip; std::nullopt if it does not declare this.
   virtual std::optional<bool> says_gzip() const { return std::nullopt; }
   /// Describes the container's false declarations about itself, in sentences; other readers may rely on these
   /// declarations. Reads all its indexes.
   virtual std::vector<std::string> find_faults() const { return {}; }
 };
 
-/// Opens a set, also one of other programs: folders of "z/x/y.terrain", compressed or not, even with missing tiles.
-/// Fails with kInput if the path is not a tile set, or the set is damaged or truncated; never trusts a length or an
+/// Opens a set of Scarp or another program, such as a folder of "z/x/y.terrain", compressed or not, even with missing
+/// tiles. Fails with kInput if the path is not a tile set, or the set is damaged or truncated. Checks each length and
 /// offset in it. Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
@@ -105,13 +105,13 @@ std::string find_vertical(const TileSetReader& set);
 
 /// The position of a local grid's plane on the globe.
 struct PlaneOnGlobe {
-  /// From metres east, north and up of the raster's centre sample (LocalRaster) to earth-centred metres: 4 × 4, by
-  /// columns. Exact at the centre, with the rotation and scale of the projection there.
+  /// Matrix, 4 × 4 by columns, from metres east, north and up of the raster's centre sample (LocalRaster) to
+  /// earth-centred metres. Exact at the centre, with the rotation and scale of the projection there.
   std::array<double, 16> transform{};
   std::string crs;                  ///< CRS of the raster, as RasterInfo::crs
   double convergence = 0;           ///< degrees from true north to the raster's north, clockwise
-  double scale_x = 1, scale_y = 1;  ///< scale of the projection at the centre: metres on the plane for one on the
-                                    ///< ground
+  double scale_x = 1, scale_y = 1;  ///< scale of the projection at the centre: metres on the plane per metre on
+                                    ///< the ground
   /// Largest distance in metres between the transformed and the true position of the raster, along the ground and in
   /// height. Its causes are the earth's curvature, and the change of scale and rotation away from the centre.
   double off_along = 0, off_height = 0;
@@ -128,8 +128,8 @@ struct LayerFacts {
   std::string body;           ///< see RasterOnGlobe::body
   std::string units;          ///< units of a local grid's cells, as RasterOnPlane::units; else empty
   std::optional<PlaneOnGlobe> plane = std::nullopt;  ///< plane of a local grid with a position on the globe
-  std::string version = {};  ///< set by sinks, and different if any tile differs: clients add it to requests, to bypass
-                             ///< old cached copies
+  std::string version = {};  ///< set by sinks; changes if any tile changes. Clients add it to requests to bypass old
+                             ///< cached copies
 };
 
 /// The suffix of lengths for LayerFacts::units: " m" for metres and for unnamed units, else empty.
@@ -144,12 +144,12 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
 // each other, and with the nodes from which the set was made.
 //
 //   container     the container's header, index and tables are correct
-//   availability  each announced tile exists, each existing tile is announced, with its parent; all roots exist
+//   availability  each announced tile exists, each existing tile and its parent are announced; all roots exist
 //   file          each tile can be decoded, and all its indices refer to vertices
 //   coverage      triangles cover the tile once: no flipped triangle, no gap, no vertex in the middle of an edge
 //   edge list     the lists of the four edges contain exactly the vertices on them
-//   border        neighbours decode to the same vertices, heights in single precision, and normals, also at the four
-//                 tiles of a corner, around the antimeridian and at the poles
+//   border        neighbours decode to the same vertices, heights in single precision, and normals, also where four
+//                 tiles meet, around the antimeridian and at the poles
 //   header        heights, bounding sphere and centre fit all vertices
 //   horizon       no camera sees a vertex that its tile's horizon point hides
 //   bound         no node under a tile, and no sample of the source, is farther from its triangles than the set
@@ -211,13 +211,13 @@ struct TileFault {
 
 struct CheckedLevel {
   std::uint64_t tiles = 0, triangles = 0;
-  std::uint64_t edges = 0, edges_apart = 0;      ///< edges that two tiles, or a tile and a pole, share; those that
-                                                 ///< differ
-  std::uint64_t corners = 0, corners_apart = 0;  ///< corners shared by diagonal tiles; those that differ
+  std::uint64_t edges = 0, edges_apart = 0;      ///< edges shared by two tiles, or by a tile and a pole; number of
+                                                 ///< these that differ
+  std::uint64_t corners = 0, corners_apart = 0;  ///< corners shared by diagonal tiles; number of these that differ
   double gap = 0;                                ///< the largest gap between two edges, metres
   double sag = 0;                                ///< depth of flat triangles below the earth's curve, metres
   std::optional<double> promised_node_error, promised_bound, promised_source_error;  ///< values declared by the set
-  /// With nodes: the largest |mesh − node|, with edges straight on the map, and the largest distance in space.
+  /// With nodes: the largest |mesh − node|, with edges that are straight on the map, and the largest distance in space.
   std::optional<double> node_error, distance;
   /// With nodes whose source has samples: the largest |mesh − sample|, each at its own position, over samples whose
   /// four surrounding nodes have heights.
@@ -236,8 +236,9 @@ struct TileCheck {
   bool holds() const { return count() == 0; }
 };
 
-/// Checks a whole set. The result does not depend on the number of threads. Fails with kCancelled, as the nodes' source
-/// does, and with kUsage for `cells` that do not fit the set's levels. Faults of the set are listed in the result.
+/// Checks a whole set. The result does not depend on the number of threads. Fails as the nodes' source does, with
+/// kUsage for `cells` that do not fit the set's levels, and with kCancelled. Faults of the set are listed in the
+/// result.
 ///
 /// Memory: that of the reader, edges of a row of tiles (some 2 kB a tile), 200 bytes a tile for 3D Tiles, and with
 /// nodes 70 MB. Cost: each tile is decoded once, or twice with nodes; each node is read once, and nodes and samples are

@@ -48,20 +48,20 @@ struct RegionGrid {
 };
 
 /// Computes a tolerance for each sample, row-major, for Tolerances::values. It is t in a region of tolerance t, and t +
-/// (beyond − t) · min(1, d / falloff) at a distance d from the region. Of several regions, the smallest tolerance
-/// counts; +infinity without any. The samples nearest to rings and lines belong to their region, so a region smaller
-/// than a cell also has samples. Distances are those between samples (exact, Euclidean). Tolerances are rounded down to
-/// float32. `found`: for each region, true if any part of it lies in the raster; may be null. REQUIRES: cols, rows,
-/// cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross)
-/// for each region. Memory: the result, and that of RegionBounds.
+/// (beyond − t) · min(1, d / falloff) at a distance d from the region. With several regions, the smallest tolerance
+/// counts. It is +infinity if no tolerance applies. The samples nearest to rings and lines belong to their region, so
+/// even a region smaller than a cell has samples. Distances are those between samples (exact, Euclidean). Tolerances
+/// are rounded down to float32. `found`: for each region, true if any part of it lies in the raster; may be null.
+/// REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted. Cost: O(samples + segments ·
+/// rows that they cross) for each region. Memory: the result, and that of RegionBounds.
 std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
                                      std::vector<bool>* found = nullptr);
 
 /// The tolerances of region_tolerances(), bit for bit, computed on reading.
 struct RegionBounds {
   /// For Tolerances::source and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples). If falloff
-  /// > 0, each region near the window costs at least as much as for rows of a thousand samples, or six times the
-  /// falloff.
+  /// > 0, each region near the window costs at least as much as in a window with rows of a thousand samples, or of six
+  /// times the falloff.
   std::shared_ptr<const SampleSource> source;
   std::vector<bool> found;  ///< for each region, true if any part of it lies in the raster
   /// Bytes of memory: 8 for each region and column, 8 for each sample on a region's outline, and the buffers of
@@ -82,11 +82,11 @@ struct Tolerances {
   /// none.
   const SampleSource* source = nullptr;
   /// A weight for each sample, at least 0 and finite (Terra's importance mask): samples are ranked by weight · |error|,
-  /// and max_error bounds it. Weight 0 means no bound. Borrowed. DEFAULT: empty, all 1.
+  /// and max_error bounds this product. Weight 0 means no bound. Borrowed. DEFAULT: empty, all 1.
   std::span<const float> weights = {};
   /// The same weights for a field with a source. Borrowed. DEFAULT: none.
   const SampleSource* weights_source = nullptr;
-  /// Samples without a bound, which never become vertices by their errors. Borrowed. DEFAULT: none.
+  /// Samples without a bound, which never become vertices because of their errors. Borrowed. DEFAULT: none.
   std::span<const SampleAt> ignored = {};
 };
 
@@ -113,9 +113,9 @@ struct OwnedTolerances {
 ///
 /// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call becomes the owner of
 /// `raster`. The regions are not needed after the call. With in_windows, the call reads the whole raster once. Fails
-/// with kUsage without raster and regions, for a raster of another size than the grid, and for a raster with a source
-/// if values are requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample has a
-/// bound from the raster, a region or the tolerance beyond them. Fails as the raster's source does, and with
+/// with kUsage with neither raster nor regions, for a raster of another size than the grid, and for a raster with a
+/// source if values are requested. Fails with kInput, naming the raster's file, for a negative value, and if no sample
+/// has a bound from the raster, a region or the tolerance beyond them. Fails as the raster's source does, and with
 /// kCancelled. REQUIRES: for regions, the grid as in region_tolerances(). Cost: O(samples) for the raster; for regions
 /// that of region_tolerances() or make_region_bounds().
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,

@@ -1,4 +1,4 @@
-// A hook of the library's allocations, for a program that requests huge pages.
+// A hook that the library calls after allocations, for a program that requests huge pages.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// Called with each block that an Array gets from malloc(). DEFAULT: null, no call. A program must set it before it
+/// Called with each block that an Array gets from malloc(). DEFAULT: null, no calls. A program must set it before it
 /// creates any array.
 inline void (*after_allocation)(void* block, std::size_t size) = nullptr;
 

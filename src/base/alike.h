@@ -10,14 +10,15 @@
 
 namespace scarp {
 
-/// Edit distance: number of letters to change, add, omit or swap with a neighbour.
+/// Edit distance: the number of letters to change, add, remove or swap with a neighbour.
 std::size_t count_typos(std::string_view a, std::string_view b);
 
-/// The names that begin with the word. Otherwise those with the fewest typos (at most 2, and one per three letters of
-/// the word). Otherwise the name that contains the word, if only one does. Empty if no name is similar.
+/// The names that begin with the word; else those with the fewest typos (at most 2, and at most one per three letters
+/// of the word); else the only name that contains the word. Empty if no name is similar.
 std::vector<std::string> find_alike(const std::string& word, const std::vector<std::string>& names);
 
-/// "did you mean a.tif or b.tif?" for the first few names, each with the prefix. Empty if `alike` is empty.
+/// A question, "did you mean a.tif or b.tif?", about the first few names, each with the prefix. Empty if `alike` is
+/// empty.
 std::string ask_for(const std::vector<std::string>& alike, const std::string& prefix = "");
 
 }  // namespace scarp

@@ -14,8 +14,8 @@
 namespace scarp {
 
 /// Like std::vector for trivially copyable T, with two differences that matter for millions of triangles. New elements
-/// are not cleared. Growth uses realloc, which moves pages instead of copying them, so memory in use never doubles
-/// while growing. Free blocks of other arrays (blocks.h) are reused before new ones.
+/// are not cleared. Growth uses realloc, which moves pages instead of copying them, so the memory in use never doubles
+/// during growth. Freed blocks of other arrays (blocks.h) are reused before new blocks are allocated.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,5 @@
 // A search tree for intersecting boxes, packed in the order of a space-filling curve (Kamel and Faloutsos 1993, with
-// Morton's curve instead of Hilbert's). Clusters and boxes of very different lengths add no cost.
+// Morton's curve instead of Hilbert's). Neither clusters nor boxes of very different lengths add cost.
 #pragma once
 
 #include <array>
@@ -33,17 +33,18 @@ class BoxTree {
   std::span<const std::uint32_t> order() const { return order_; }
   const Box& box_at(std::size_t place) const { return levels_[0][place]; }
 
-  /// Size of groups of neighbours in that order; the last group may be smaller. A box near one member is near all.
+  /// Size of the groups of neighbours in order(); the last group may be smaller. A box near one member is near the
+  /// whole group.
   static constexpr std::size_t kGroup = 8;
   std::size_t group_count() const { return (order_.size() + kGroup - 1) / kGroup; }
   const Box& hull_of_group(std::size_t group) const { return levels_[1][group]; }
 
-  /// Collects the places, from `first` on in the tree's order, of boxes that overlap `box`. False if there are more
-  /// than `most`.
+  /// Collects the positions in the tree's order, from `first` on, of the boxes that overlap `box`. Returns false if
+  /// there are more than `most`.
   bool gather(const Box& box, std::size_t first, std::size_t most, std::vector<std::size_t>& places) const;
 
-  /// Calls visit(index) for each box, from `first` on in the tree's order, for which `meets` returns true. REQUIRES: if
-  /// meets() is true for a box, it is true for each box around that one.
+  /// Calls visit(index) for each box for which `meets` returns true, from `first` on in the tree's order. REQUIRES: if
+  /// meets() is true for a box, it is true for each box that contains this box.
   template <class Meets, class Visit>
   void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {
     visit_places(
@@ -80,7 +81,8 @@ class BoxTree {
   }
 
   std::vector<std::uint32_t> order_;
-  std::vector<std::vector<Box>> levels_;  ///< 0: the boxes; then hulls of kFan boxes each; the last is one box
+  std::vector<std::vector<Box>> levels_;  ///< level 0: the boxes; each next level: hulls of kFan boxes each; the last
+                                          ///< is one box
 };
 
 }  // namespace scarp

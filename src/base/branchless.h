@@ -1,8 +1,8 @@
-// The smaller and the larger of two numbers, and the whole part of one, without unpredictable branches.
+// The smaller and the larger of two numbers, and the whole part of a number, without unpredictable branches.
 //
 // lesser() and greater() equal std::min and std::max: for equal numbers, or with a NaN, they return the first. Most
-// machines have instructions for them. WebAssembly has such instructions only for vectors, and its engines compile
-// scalars to branches.
+// machines have instructions for these functions. WebAssembly has such instructions only for vectors, and its engines
+// compile the scalar ones to branches.
 #pragma once
 
 #include <cstdint>

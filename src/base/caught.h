@@ -8,7 +8,8 @@
 namespace scarp {
 
 /// The Error of the current exception; call it in a `catch (...)` block. `doing` names the failed action, as in "read
-/// dem.tif". Out of memory: `kind`, "not enough memory to read dem.tif"; all else: kInternal.
+/// dem.tif". If memory has run out: `kind`, with the message "not enough memory to read dem.tif". All other exceptions:
+/// kInternal.
 tl::unexpected<Error> caught(ErrorKind kind, std::string_view doing);
 
 }  // namespace scarp

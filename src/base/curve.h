@@ -1,4 +1,4 @@
-// Morton's curve through the plane: neighbours on it are neighbours in the plane.
+// Morton's curve through the plane: neighbours on the curve are neighbours in the plane.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ inline std::uint64_t spread_bits(std::uint64_t bits) {
   return (bits | bits << 1) & 0x5555555555555555;
 }
 
-/// The position of (x, y) along the curve, both below 2^32.
+/// The position of (x, y) along the curve; x and y are below 2^32.
 inline std::uint64_t curve_place(std::uint64_t x, std::uint64_t y) { return spread_bits(x) | spread_bits(y) << 1; }
 
 /// The inverse of spread_bits(): every second bit, from the lowest on.

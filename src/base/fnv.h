@@ -7,7 +7,7 @@ namespace scarp {
 
 class Fnv {
  public:
-  /// Bytes, or numbers of up to 32 bits.
+  /// Adds bytes, or numbers of up to 32 bits.
   template <class Values>
   void add(const Values& values) {
     for (const auto value : values) hash_ = (hash_ ^ value) * 0x100000001b3;

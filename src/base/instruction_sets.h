@@ -1,7 +1,7 @@
-// The choice between several compilations of the same vector code. Among tables compiled once for each instruction set,
-// the best that the machine supports is chosen, or the one named by the environment variable SCARP_KERNEL (any table's
-// name, in any case; others are ignored). WebAssembly has one instruction set and no environment. Its build omits the
-// scalar twin, with which tests compare the vectors.
+// The choice between several compilations of the same vector code. There is a table of functions for each instruction
+// set. The best table that the machine supports is chosen, or the one that the environment variable SCARP_KERNEL names
+// (in upper or lower case; unknown names are ignored). WebAssembly has one instruction set and no environment
+// variables. Its build omits the scalar twin, with which tests compare the vector code.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline bool is_same_kernel_name(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// REQUIRES: `available` is not empty; the best is first. Each table has a `name`.
+/// REQUIRES: `available` is not empty, and its best table is first. Each table has a `name`.
 template <class Kernels>
 const Kernels& choose_kernels(std::span<const Kernels> available) {
 #ifdef __EMSCRIPTEN__

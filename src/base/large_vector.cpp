@@ -12,7 +12,7 @@ namespace scarp {
 
 void map_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes, [[maybe_unused]] int threads) {
 #ifdef MADV_POPULATE_WRITE
-  constexpr std::uintptr_t kLargestPage = 1 << 16;  // largest page size anywhere
+  constexpr std::uintptr_t kLargestPage = 1 << 16;  // the largest page size of any machine
   constexpr std::size_t kTogether = std::size_t{4} << 20;
   if (bytes < kTogether) return;
   const auto begin = reinterpret_cast<std::uintptr_t>(data);

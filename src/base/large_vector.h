@@ -10,7 +10,7 @@ namespace scarp {
 /// are first written.
 void map_pages(void* data, std::size_t bytes, int threads);
 
-/// New elements are 0. The system spends most of the time on mapping pages. REQUIRES: `values` is empty.
+/// New elements are 0. Most of the time is spent on mapping pages. REQUIRES: `values` is empty.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t size, int threads) {
   values.reserve(size);

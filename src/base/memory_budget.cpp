@@ -34,7 +34,7 @@ Result<void> MemoryBudget::check_start(std::uint64_t work) const {
 Result<void> MemoryBudget::check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const {
   if (!is_limited() || work + vertices * per_vertex <= rest()) return {};
   const double whole = static_cast<double>(vertices) / std::clamp(share, 1e-6, 1.0);
-  // A quarter more, since the rest may be rougher than the finished part.
+  // Adds a quarter, since the rest may be rougher than the finished part.
   const double needed = static_cast<double>(taken + work) + 1.25 * whole * static_cast<double>(per_vertex);
   return fail(
       ErrorKind::kMemory,

@@ -8,8 +8,8 @@
 
 namespace scarp {
 
-/// The remedy at the end of an error message, which makes the mesh smaller. A budget search replaces it, since the runs
-/// of a search have no budget of their own.
+/// The remedy at the end of an error message: it makes the mesh smaller. A budget search replaces this remedy, since
+/// the runs of a search have no budget of their own.
 inline constexpr std::string_view kLargerError = "a larger max error";
 
 /// Memory of the process, from the caller's options. Without a limit, nothing is rejected.
@@ -20,16 +20,16 @@ struct MemoryBudget {
 
   bool is_limited() const { return limit > 0; }
   std::uint64_t rest() const { return limit > taken ? limit - taken : 0; }
-  /// The number of threads, from 1 to `threads`, that fit a quarter of the remaining memory at `bytes` each.
+  /// The number of threads, from 1 to `threads`, for which `bytes` each fit in a quarter of the remaining memory.
   int threads_within(std::uint64_t bytes, int threads) const;
 
-  /// Fails with kMemory if a small mesh does not fit next to the memory that a run always uses.
+  /// Fails with kMemory if a small mesh does not fit in addition to `work`, the memory that a run always uses.
   Result<void> check_start(std::uint64_t work) const;
   /// Fails with kMemory if `work` and `vertices` vertices do not fit. `share`: the finished fraction of the run, to
   /// extrapolate the requirement.
   Result<void> check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const;
-  /// Fails with kMemory if the `bytes` found so far do not fit, extrapolated from that share of the raster. `what`:
-  /// name of the data; `advice`: another remedy.
+  /// Fails with kMemory if the `bytes` found so far, extrapolated from this share to the whole raster, do not fit.
+  /// `what`: name of the data; `advice`: another remedy.
   Result<void> check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const;
 };
 

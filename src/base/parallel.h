@@ -18,21 +18,21 @@ int thread_count(int requested);
 /// once all threads have ended; tasks of higher indices may then have been skipped.
 void parallel_for(std::size_t count, int threads, FunctionRef<void(std::size_t)> task);
 
-/// Like parallel_for(), but calls task(first, end) for parts [first, end) of 0 … count − 1, each of `size` but the
-/// last.
+/// Like parallel_for(), but calls task(first, end) for parts [first, end) of 0 … count − 1; each part except the last
+/// has `size` elements.
 void parallel_for_parts(std::size_t count, std::size_t size, int threads,
                         FunctionRef<void(std::size_t first, std::size_t end)> task);
 
 /// Calls task(i, worker) for i in 0 … count − 1 as parallel_for() does. `worker`, in 0 … thread_count(threads) − 1,
 /// identifies the thread (for scratch memory). Once task i has ended, commit(i) is called on the calling thread, in
 /// ascending order; commit() returns false to stop everything. Only a few tasks per thread start ahead of the next
-/// commit, so few results wait. Exceptions: as parallel_for(); an exception of commit() also ends the loop.
+/// commit, so few results wait. Exceptions: as for parallel_for(); an exception of commit() also ends the loop.
 void parallel_in_order(std::size_t count, int threads, FunctionRef<void(std::size_t, std::size_t)> task,
                        FunctionRef<bool(std::size_t)> commit);
 
 /// Calls beside() on another thread while the calling thread calls rest(); returns when both have ended. With one
-/// thread (or where the machine allows no more) beside() runs first. Neither may read data that the other writes.
-/// Exceptions: as parallel_for(), with beside() as the lower index.
+/// thread, or if the machine allows only one, beside() runs first. Neither function may read data that the other
+/// writes. Exceptions: as for parallel_for(), with beside() as the lower index.
 void run_beside(int threads, FunctionRef<void()> beside, FunctionRef<void()> rest);
 
 /// Lowers `value` to `least` if it is larger. Threads may call this concurrently if none accesses the value in another

@@ -1,7 +1,7 @@
 // Points of the sample lattice, their order and their orientation.
 //
-// Handedness: positive means counter-clockwise where x points right and y up. Rasters count rows downwards, so on the
-// screen a positive triangle is clockwise. The same sign is used everywhere.
+// Handedness: positive means counter-clockwise if x points right and y points up. Rasters count rows downwards, so on
+// the screen a positive triangle is clockwise. The same sign is used everywhere.
 //
 // Sizes: coordinates lie in [0, kMaxCoordinate], so a difference fits 30 bits and orient() needs 2·30 + 1 bits.
 #pragma once

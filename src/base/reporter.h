@@ -26,8 +26,8 @@ class Reporter {
   double fraction_ = 0;
 };
 
-/// A callback for a part of the work of `whole`: `share` of it, starting at `begin`. Borrows `whole`; empty if `whole`
-/// is.
+/// A callback for a part of the work of `whole`, which starts at `begin` and is `share` of the work. Borrows `whole`;
+/// empty if `whole` is empty.
 ProgressCallback part_of(const ProgressCallback& whole, double begin, double share);
 
 }  // namespace scarp

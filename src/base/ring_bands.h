@@ -1,5 +1,5 @@
-// Rings of polygons by bands of y, to find the side of a place and the edges near it. In double, for places off any
-// lattice.
+// Edges of polygon rings in bands of y, to find whether a place is inside and which edges are near. Uses doubles, for
+// places on no lattice.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace scarp {
 using Place = std::array<double, 2>;
 using PlaceRing = std::vector<Place>;
 
-/// Edges of rings, ring by ring, by bands of y.
+/// Edges of rings, ring by ring, in bands of y.
 class RingBands {
  public:
   struct Edge {
@@ -56,7 +56,7 @@ class RingBands {
     return is_inside;
   }
 
-  /// Calls visit(edge) once for each edge in the bands of a segment.
+  /// Calls visit(edge) once for each edge in the bands that a segment meets.
   template <class Visit>
   void each_near(double y_from, double y_to, const Visit& visit) const {
     std::vector<std::size_t> near;

@@ -2,9 +2,9 @@
 // instruction but compilers emit many.
 //
 // SCARP_HAVE_FLOAT64 is nonzero where vectors of doubles exist. Functions in hwy have the meaning of Highway's
-// functions of the same names. Those in scarp give the same bits on all instruction sets.
+// functions of the same names. Functions in scarp give the same bits on all instruction sets.
 
-// An include guard like Highway's: included once for every instruction set.
+// An include guard like Highway's: one inclusion per instruction set.
 #if defined(SCARP_WASM_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_WASM_VECTORS
 #undef SCARP_WASM_VECTORS
@@ -81,7 +81,7 @@ HWY_INLINE V smaller_of(V a, V b) {
 template <class DI, class V>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<DI> whole_parts([[maybe_unused]] DI di, V v) {
 #if HWY_TARGET == HWY_WASM
-  // The low bits of the sum are the nearest integer; where it exceeds v, subtract one.
+  // The low bits of the sum are the nearest integer; where this integer exceeds v, subtract one.
   const auto whole = wasm_f64x2_splat(0x1.8p52);
   const auto sum = wasm_f64x2_add(v.raw, whole);
   const auto is_above = wasm_f64x2_gt(wasm_f64x2_sub(sum, whole), v.raw);
@@ -114,8 +114,8 @@ HWY_INLINE V magnitudes(V values, M meant) {
 #endif
 }
 
-/// For float32: where `value` is larger than `most`, sets `most` to it and `at` to its place. REQUIRES: no `most` is
-/// NaN.
+/// For float32: where `value` is larger than `most`, sets `most` to it and `at` to its place. REQUIRES: no lane of
+/// `most` is NaN.
 template <class V>
 HWY_INLINE void take_larger(V value, V place, V& most, V& at) {
   namespace hn = hwy::HWY_NAMESPACE;

@@ -7,7 +7,7 @@
 namespace scarp {
 namespace {
 
-/// Limit of reported tiles, for a set that announces the whole globe but contains little.
+/// Limit of reported missing tiles, for a set that announces the whole globe but contains few tiles.
 constexpr std::uint64_t kMostMissing = 100'000;
 
 std::uint64_t key_of(std::uint32_t x, std::uint32_t y) { return std::uint64_t{y} << 32 | x; }

@@ -39,7 +39,7 @@ TileEdges take_edges(const ClientTile& tile) {
       if (tile.format == TileFormat::kGlb) {
         vertex.key = tile.places[v];
       } else {
-        // Heights in single precision; clients may decode 0 to noise of 10⁻¹¹ m.
+        // Compares heights in single precision, since clients may decode 0 as noise of 10⁻¹¹ m.
         const auto height = double{static_cast<float>(vertex.height)};
         vertex.key = {vertex.along, std::abs(height) < 1e-10 ? 0 : height, 0};
       }
@@ -124,7 +124,7 @@ void BorderWatch::compare(const TileEdges& here, TileSide side, const TileEdges&
 void BorderWatch::compare_corner(const TileEdges& here, const EdgeVertex& mine, const TileEdges& there,
                                  const EdgeVertex& theirs) {
   ++level_.corners;
-  // Positions along the edges need no comparison here: both are ends.
+  // Positions along the edges need no comparison here: both vertices are ends.
   const bool are_equal = mine.normal == theirs.normal &&
                          (format_ == TileFormat::kGlb ? mine.key == theirs.key : mine.key[1] == theirs.key[1]);
   if (are_equal) return;

@@ -14,7 +14,7 @@ namespace scarp {
 
 /// A vertex on an edge. Two vertices are the same if their `key` and `normal` are equal.
 struct EdgeVertex {
-  double along = 0, height = 0;  ///< 0 … 32767; metres
+  double along = 0, height = 0;  ///< along: 0 … 32767; height: metres
   Place key{};                   ///< position that neighbours must decode identically
   std::array<float, 3> normal{};
 };
@@ -30,8 +30,8 @@ TileEdges take_edges(const ClientTile& tile);
 /// The largest height difference between two edges, metres.
 double largest_gap(const TileEdge& one, const TileEdge& other);
 
-/// Compares the tiles of one level. Add them in rows from the south, and from the west in each row. Stores a row of
-/// edges.
+/// Compares the tiles of one level. Add the tiles row by row from the south, and from the west in each row. Stores the
+/// edges of one row.
 class BorderWatch {
  public:
   /// Borrows `level` and `faults`; adds counts and faults to them.

@@ -22,7 +22,7 @@
 namespace scarp {
 namespace {
 
-/// Tiles whose findings are in memory at once.
+/// Number of tiles whose findings are in memory at once.
 constexpr std::size_t kTilesTogether = 65536;
 
 /// The facts about a tile before comparison with its neighbours.
@@ -171,7 +171,7 @@ class TilesCheck {
     findings.triangles = tile->triangles.size() / 3;
     check_water_mask(*tile, claims_.has_water_mask, findings.faults);
     check_header(*tile, findings.faults);
-    // Otherwise all heights are numbers.
+    // If the header's heights are finite, all heights are numbers.
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;
     const auto [lowest, highest] = std::minmax_element(tile->heights.begin(), tile->heights.end());
     findings.low = *lowest;

@@ -9,9 +9,9 @@
 namespace scarp {
 namespace {
 
-/// Limit of an unpacked tile, so that a few bytes cannot exhaust memory.
+/// Size limit of an unpacked tile, so that a few bytes cannot exhaust memory.
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-/// In units of the axes. A point farther out means that the tile is never hidden: 3D Tiles need a finite point.
+/// In units of the axes. A point farther out means that the tile is never hidden, since 3D Tiles need a finite point.
 constexpr double kFarOut = 100;
 
 Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, const World& world) {
@@ -36,7 +36,8 @@ Result<ClientTile> take_quantized(QuantizedMesh mesh, const DegreeBox& box, cons
   return tile;
 }
 
-/// At a pole all longitudes are one position. This places a vertex there above the middle of its neighbours.
+/// At a pole, all longitudes are the same position. This function places a vertex there above the middle of its
+/// neighbours.
 void place_at_poles(ClientTile& tile, const std::vector<bool>& is_pole) {
   std::vector<double> sum(is_pole.size()), count(is_pole.size());
   for (std::size_t k = 0; k < tile.triangles.size(); ++k) {

@@ -25,9 +25,10 @@ struct ClientTile {
   TileFormat format = TileFormat::kQuantizedMesh;
   DegreeBox box;
   bool is_flat = false;  ///< on the plane of a local grid
-  /// Positions 0 … 32767 from west, from south; integers except in GLB files, which store positions in space.
+  /// Positions from the west and from the south, 0 … 32767; integers except in GLB files, which store positions in
+  /// space.
   std::vector<double> u, v;
-  std::vector<double> heights;  ///< metres above the world
+  std::vector<double> heights;  ///< metres above the ellipsoid or the plane
   std::vector<Place> places;
   std::vector<std::array<float, 3>> normals;  ///< normals of the vertices as stored, not decoded; empty if absent
   std::vector<float> uvs;                     ///< by vertex, its position in `image`; empty if absent

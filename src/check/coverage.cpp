@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned side_bit(std::size_t side) { return 1u << side; }
 
-/// The sides of the tile on which each vertex lies: by its position if exact, otherwise by the lists.
+/// The sides of the tile on which each vertex lies: by its position if that is exact, otherwise by the edge lists.
 std::vector<unsigned> find_sides(const ClientTile& tile) {
   std::vector<unsigned> sides(tile.u.size());
   if (tile.format == TileFormat::kGlb) {
@@ -33,7 +33,7 @@ std::vector<unsigned> find_sides(const ClientTile& tile) {
   return sides;
 }
 
-/// Numbers vertices; those at one position share a number, if positions are exact.
+/// Numbers vertices; if positions are exact, vertices at the same position share a number.
 std::vector<std::uint32_t> number_places(const ClientTile& tile) {
   std::vector<std::uint32_t> numbers;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {

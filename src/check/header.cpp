@@ -63,7 +63,7 @@ void check_header(const ClientTile& tile, std::vector<TileFault>& faults) {
   if (farthest > tile.radius + slack)
     add(fmt::format("has a vertex {:.3f} m outside of its bounding sphere, whose radius is {:.3f} m",
                     farthest - tile.radius, tile.radius));
-  // Much larger spheres do not spoil drawing; a sphere at another place does.
+  // A sphere that is much too large does not spoil drawing; a sphere at another place does.
   if (tile.radius > 4 * farthest + 1000)
     add(fmt::format("has a bounding sphere of {:.3f} m around vertices at most {:.3f} m from its centre", tile.radius,
                     farthest));
@@ -93,14 +93,14 @@ void check_horizon(const ClientTile& tile, const World& world, std::vector<TileF
     if (is_hidden_wrongly(point, vertices, out * up)) return add();
   }
   if (far <= 1) return;
-  // Around the tile: cameras behind the point where the ray through the horizon point touches the sphere.
+  // Cameras around the tile, beyond the point where the ray through the horizon point touches the sphere.
   const Place side = std::abs(up[2]) < 0.9 ? cross(up, {0, 0, 1}) : cross(up, {1, 0, 0});
   const Place across = (1 / length(side)) * side, along = cross(up, across);
   const double cosine = 1 / far, sine = std::sqrt(1 - cosine * cosine);
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2 * 3.141592653589793 * k / kDirections;
     const Place touched = cosine * up + sine * (std::cos(angle) * across + std::sin(angle) * along);
-    // From behind, only vertices above the sphere's tangent plane there are visible.
+    // From there, only vertices above the sphere's tangent plane at that point are visible.
     const auto highest = std::max_element(vertices.begin(), vertices.end(), [&](const Place& a, const Place& b) {
       return inner(a, touched) < inner(b, touched);
     });

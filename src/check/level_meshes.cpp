@@ -60,8 +60,8 @@ struct FlatMap {
   double longitude, latitude, metres_east = 0, metres_north = 0;
 };
 
-/// The smallest power of two of which `extent` is at most 65,534 steps: rounding to it keeps differences within 16
-/// bits.
+/// The smallest power of two for which `extent` is at most 65,534 such steps: rounding to them keeps differences within
+/// 16 bits.
 double find_step(double extent) {
   constexpr double kMostSteps = 65534;
   if (extent == 0) return 1;
@@ -78,7 +78,7 @@ class Laying {
   void add(ClientTile tile) {
     std::vector<Place> places;
     for (std::size_t v = 0; v < tile.u.size(); ++v) places.push_back(place_of(tile, v));
-    // One step of a tile's positions, which exceeds the rounding of a vertex and is less than the width of the map.
+    // One step of a tile's positions. It exceeds the rounding of a vertex and is less than the width of the map.
     const double near = (tile.box.east - tile.box.west) * map_.metres_east / kWholeTile;
     for (const auto& edge : tile.edges) {
       for (const std::uint32_t v : edge) {

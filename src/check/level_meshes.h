@@ -15,10 +15,9 @@
 
 namespace scarp {
 
-/// A tile.
 struct LevelTile {
-  /// On a flat map: metres east and north of the middle, where the scale is true, and the tiles' heights. Adjacent
-  /// tiles have separate vertices at identical positions. The metadata contain `tile_level`.
+  /// On a flat map: x and y are metres east and north of the middle, where the scale is true; z is the tiles' height.
+  /// Adjacent tiles have separate vertices at identical positions. The metadata contain `tile_level`.
   Mesh mesh;
   GlbImage image;  ///< draped over the mesh by the mesh's uvs; empty if absent
 };
@@ -38,8 +37,8 @@ struct LevelMesh {
 /// damaged tiles, and with kUsage if no level is small enough. Cost: O(tiles read).
 Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::uint64_t most_bytes);
 
-/// Sentences about differences between the set and its metadata: tiles missing or not announced, an invalid layer.json
-/// or tileset.json. Empty for an intact set. Reads no tile. Cost: O(tiles).
+/// Sentences about differences between the set and its metadata: missing or unannounced tiles, an invalid layer.json or
+/// tileset.json. Empty for an intact set. Reads no tile. Cost: O(tiles).
 std::vector<std::string> find_set_faults(const TileSetReader& set);
 
 }  // namespace scarp

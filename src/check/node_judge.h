@@ -56,8 +56,8 @@ class NodeJudge {
 
   /// Judges the nodes of the block that lie under the tile. REQUIRES: columns of the block lie within the grid.
   NodeVerdict judge(const NodeBlock& block) const;
-  /// Judges all nodes under the tile outside the rectangle (and outside its copy one turn away). These nodes have the
-  /// background's height. Distances are upper bounds.
+  /// Judges all nodes under the tile that are outside the rectangle and outside its copy one turn away. These nodes
+  /// have the background's height. Distances are upper bounds.
   NodeVerdict judge_outside(const NodeRectangle& inside, const World& world) const;
 
  private:
@@ -70,8 +70,8 @@ class NodeJudge {
   OnLattice on_lattice(std::size_t k) const;
   /// Range of columns of a row in a triangle; first > second if none.
   static std::pair<double, double> columns_of(const OnLattice& triangle, double row);
-  /// The distance to the first triangle found within the bound; otherwise the least distance among the triangles
-  /// around, or infinity.
+  /// The distance to the first triangle that is found within the bound. If there is none: the least distance to the
+  /// triangles nearby, or infinity.
   double nearest(const Place& node) const;
   /// Position of a row of nodes in steps from the tile's northern edge; rows may be unevenly spaced.
   double line_of(std::int64_t row) const;

@@ -18,7 +18,7 @@
 namespace scarp {
 namespace {
 
-/// Node intervals along a side of a block: 67 MB.
+/// Node intervals along a side of a block, which then needs 67 MB.
 constexpr std::int64_t kMostSteps = 4096;
 constexpr int kRowsTogether = 256;
 /// Allowed excess of a measured error over its bound by rounding: relative, and in metres.
@@ -174,7 +174,6 @@ class NodesCheck {
     return {};
   }
 
-  /// Judges the samples under a tile in the block.
   Result<void> judge_samples(const ClientTile& tile, TileId block, const NodeBlock& nodes, NodeVerdict& verdict) const {
     if (!options_.nodes.source->has_samples()) return {};
     const DegreeBox box = grid_.bounds_of(tile.id);
@@ -246,7 +245,7 @@ class NodesCheck {
     const auto breaks = [](double found, const std::optional<double>& promised) {
       return promised && found > *promised * (1 + kRounding) + kDust;
     };
-    // Positions in GLB files are rounded in space, except on a plane. Their bound is on the distance.
+    // Positions in GLB files are rounded in space, except on a plane, so the bound applies to the distance.
     const bool is_error = (set_.format() == TileFormat::kQuantizedMesh || grid_.is_flat()) &&
                           (breaks(verdict.node_error, level.promised_node_error) ||
                            breaks(verdict.source_error, level.promised_source_error));

@@ -1,4 +1,4 @@
-// The ground of tiles for the judge, independent of the arithmetic that built them.
+// The ground of tiles for the judge, independent of the arithmetic that built the tiles.
 #pragma once
 
 #include <array>
@@ -66,7 +66,6 @@ class World {
   double a_, b_, e2_;
 };
 
-/// The distance from a point to a triangle.
 double distance_to_triangle(const Place& point, const Place& a, const Place& b, const Place& c);
 
 }  // namespace scarp

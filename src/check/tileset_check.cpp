@@ -14,9 +14,9 @@ namespace scarp {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
-/// Slack for rounding to decimals: of a root's sides, and of heights in metres.
+/// Slack for rounding to decimals: for a root's sides, and for heights in metres.
 constexpr double kSideSlack = 1e-9, kHeightSlack = 1e-6;
-/// Metres at the centre of a plane, where its transform is exact.
+/// Slack in metres at the centre of a plane, where the plane's transform is exact.
 constexpr double kCentreSlack = 0.01;
 /// Checked raster positions in each direction: a subset of those for which the set declares the distance from the
 /// globe.
@@ -143,7 +143,7 @@ class TilesetCheck {
     const World globe(TileGrid{}, nodes_.place->ellipsoid);
     const double col = static_cast<double>(raster.centre_col()), row = static_cast<double>(raster.centre_row());
     const double height = (low_ + high_) / 2;
-    // Distances on the ground in metres, and in height.
+    // Distances in metres: on the ground, and in height.
     const auto off = [&](double east, double north, double above) -> std::array<double, 2> {
       const std::array<double, 3> at = nodes_.place->find(east, north);
       const Place way = put(by, (east - col) * raster.cell_x, (north - row) * raster.cell_y, above) -

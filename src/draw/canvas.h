@@ -24,7 +24,6 @@ Colour ramp(const std::array<Colour, N>& stops, double t) {
   return out;
 }
 
-/// A white picture.
 Picture blank(int width, int height);
 void set_pixel(Picture& picture, int x, int y, const Colour& colour);
 
@@ -37,7 +36,6 @@ class LineLayer {
   /// Adds an anti-aliased line of the given width and darkness (0 … 1). Coordinates are in pixels; (0, 0) is the first
   /// pixel's centre.
   void add_line(double x0, double y0, double x1, double y1, double line_width, double darkness);
-  /// Draws the lines over the picture.
   void blend_into(Picture& picture, const Colour& ink) const;
 
  private:

@@ -70,7 +70,7 @@ double aspect_of(const std::array<double, 2>& cell) {
 
 }  // namespace
 
-/// Means would hide the errors that the map shows.
+/// Each pixel shows its largest error; a mean would hide errors.
 ErrorMap::ErrorMap(int cols, int rows, ErrorMapOptions options)
     : cols_(cols), rows_(rows), options_(std::move(options)) {
   options_.max_side = std::max(options_.max_side, 1);

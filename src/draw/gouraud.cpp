@@ -1,6 +1,6 @@
 // The approximation as an image: each triangle interpolates its corners' values, one pixel per sample.
 //
-// Vertices near samples are snapped to the samples, because the frame may have rounded the vertices; so edge functions
+// Vertices near samples are snapped to the samples, because the frame may have rounded the vertices. So edge functions
 // are exact. A sample on an edge or a corner belongs to the triangle, so no sample of the mesh stays white.
 #include <algorithm>
 #include <array>
@@ -27,7 +27,6 @@ std::pair<int, int> whole_between(double lo, double hi, int size) {
           static_cast<int>(std::clamp(std::floor(hi), -1.0, size - 1.0))};
 }
 
-/// A triangle over the grid.
 struct Facet {
   std::array<double, 3> x{}, y{};
   double area = 0, slack = 0;
@@ -52,8 +51,8 @@ struct Facet {
   }
 };
 
-/// Calls visit(col, row, v, weights) for every sample within or on a triangle that faces up; the weights of its corners
-/// v[0 … 2] add up to 1.
+/// Calls visit(col, row, v, weights) for every sample in a triangle that faces up, or on its border; the weights of its
+/// corners v[0 … 2] add up to 1.
 template <class Visit>
 void visit_samples(const HeightField& field, const Mesh& mesh, Visit visit) {
   const draw::GridPositions at = draw::find_grid_positions(field.frame, field.cols, field.rows, mesh);

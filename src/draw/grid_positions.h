@@ -16,8 +16,8 @@ struct GridPositions {
 /// hundredth of a sample. Cost: O(vertices); some 15 evaluations of a transform per vertex.
 GridPositions find_grid_positions(const Frame& frame, int cols, int rows, const Mesh& mesh);
 
-/// Ground lengths of one column step and one row step at the middle of the grid, in the frame's units. NaN where the
-/// frame has no image there.
+/// Ground lengths of one column step and one row step at the middle of the grid, in the frame's units. NaN if the frame
+/// has no image there.
 std::array<double, 2> step_lengths(const Frame& frame, int cols, int rows);
 
 }  // namespace scarp::draw

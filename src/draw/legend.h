@@ -24,8 +24,8 @@ struct Name {
 struct Legend {
   double metres = 0;  ///< width of a pixel; 0: no scale bar
   Tints tints;
-  std::string unit;         ///< unit of heights
-  std::vector<Name> names;  ///< names of lines
+  std::string unit;
+  std::vector<Name> names;
 };
 
 /// Height of the legend in pixels; 0 where the picture is too small for one.

@@ -20,7 +20,7 @@ using draw::Relief;
 constexpr Colour kFrameInk{24, 28, 48};
 constexpr int kWantedPreview = 1050;  // pixels of the longer side after enlargement of smaller rasters
 
-/// Means of the samples in each pixel; nodata if more than half of them are nodata.
+/// The mean of the samples in each pixel; nodata if more than half of the samples are nodata.
 Result<Relief> reduce(const HeightField& field, int width, int height) {
   Relief relief{width, height, {}};
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -126,7 +126,6 @@ constexpr MarkStyle kMarkStyles[] = {
     {MarkKind::kWater, {0, 114, 178}, "rivers"},       {MarkKind::kWall, {120, 20, 60}, "walls"},
     {MarkKind::kBreakline, {200, 0, 0}, "breaklines"}, {MarkKind::kCutline, {130, 0, 160}, "cutline"}};
 
-/// Tints the pixels within the rings.
 void fill_lakes(const std::vector<Mark>& marks, const MapPlace& place, int height, const Colour& colour,
                 Picture& picture) {
   constexpr double kTint = 0.55;

@@ -53,7 +53,6 @@ double choose_exaggeration(const Relief& relief, const std::vector<std::array<do
   return is_metric ? std::clamp(wanted, 0.5, 10.0) : wanted;
 }
 
-/// Colours by pixel of the relief.
 std::vector<Colour> paint(const Relief& relief, const std::vector<std::array<double, 2>>& slopes, double exaggeration,
                           const Tints& tints) {
   std::vector<Colour> colours(relief.z.size(), Colour{255, 255, 255});

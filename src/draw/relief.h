@@ -18,7 +18,7 @@ struct Relief {
   }
 };
 
-/// Colours of heights; blue below sea level, if it is known.
+/// Colours of heights; blue below sea level, if sea level is known.
 struct Tints {
   double lowest = 0, highest = 0;
   bool has_sea = false;

@@ -98,7 +98,6 @@ bool CrackChains::goes_out(const Cell& cell, std::size_t k) const {
   return k < 2 ? side.from > side.to : side.to > side.from;
 }
 
-/// Finds the successor of crack i.
 void CrackChains::link(std::uint32_t i) {
   if ((flags_[i] & kIsAheadWhole) == 0) return;
   const Point at = cell_ahead(sides_[i]);

@@ -1,8 +1,8 @@
-// Cracks, which are steps of a raster between neighbours, and the chains that they form.
+// Cracks, which are steps between neighbouring samples of a raster, and the chains that they form.
 //
-// A crack lies between two neighbours in a row or column whose heights differ by more than a given height. A wall
-// through a cell of four samples with two cracked sides enters at one side and leaves at the other. So cracks form
-// chains, with all high samples on the left (rows count downwards) and all low samples on the right. A line that
+// A crack lies between two samples that are neighbours in a row or column and differ by more than a given height. In a
+// cell of four samples with two cracked sides, a wall enters at one of these sides and leaves at the other. So cracks
+// form chains, with all high samples on the left (rows count downwards) and all low samples on the right. A line that
 // crosses the cracks of a chain in order separates high from low samples.
 //
 // Samples are read once, from the top down, three rows at a time, so rasters may be larger than memory.
@@ -21,7 +21,7 @@ namespace scarp {
 struct Crack {
   Point high, low;                ///< samples
   float top = 0, foot = 0;        ///< their heights
-  bool is_before_saddle = false;  ///< the chain passes the cell between this crack and the next twice
+  bool is_before_saddle = false;  ///< the chain passes twice through the cell between this crack and the next
   friend bool operator==(const Crack&, const Crack&) = default;
 };
 
@@ -31,7 +31,7 @@ struct CrackChain {
 };
 
 /// All cracks between samples that differ by more than `height`, each in one chain. A chain ends at a cell with one
-/// crack, three cracks, two contradictory ones, or nodata. A cell with four cracks, a saddle, is passed twice, around
+/// crack, three cracks, two contradictory cracks, or nodata. A cell with four cracks, a saddle, is passed twice, around
 /// the two samples that differ more. Cost: O(samples + n log n) for n cracks.
 class CrackChains {
  public:
@@ -39,8 +39,8 @@ class CrackChains {
   CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
       : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
 
-  /// Scans a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata is NaN. REQUIRES: calls
-  /// for each row once, from the top down.
+  /// Scans a row. `above` and `below`: the neighbouring rows, null at the top and the bottom. Nodata is NaN. REQUIRES:
+  /// one call for each row, from the top down.
   void add_row(std::int32_t row, const float* above, const float* here, const float* below);
   /// REQUIRES: all rows have been scanned.
   void link();
@@ -51,7 +51,7 @@ class CrackChains {
   static constexpr std::uint64_t kBytesPerCrack = 40;    ///< while rows are added; fewer afterwards
 
  private:
-  /// A crack from a sample to the one on its right or below it.
+  /// A crack between a sample and its neighbour on the right or below.
   struct Side {
     std::uint64_t key;  // in raster order; the right side before the lower one
     float from, to;

@@ -22,9 +22,9 @@ class HollowSamples {
     std::function<Result<void>(std::uint64_t samples, double share)> check;
     int threads = 0;
   };
-  /// Finds low samples, and those within two samples of them. Reads the field's source once from the top down. Returns
-  /// failures of the source and of `check`. Memory: 9 bytes per sample found, twice that during the search, and
-  /// bytes().
+  /// Finds low samples, and all samples within two samples of them. Reads the field's source once from the top down.
+  /// Returns failures of the source and of `check`. Memory: bytes(), and 9 bytes per sample found (18 during the
+  /// search).
   static Result<HollowSamples> find(const HeightField& field, const Question& question);
   /// Memory of find() in addition to the samples.
   static std::uint64_t bytes(const HeightField& field);

@@ -9,7 +9,6 @@
 namespace scarp {
 namespace {
 
-/// One side of a profile.
 struct Side {
   Hollow rise = Hollow::kNone;
   std::int32_t level = 0;  // samples of the same height as the centre

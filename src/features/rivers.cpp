@@ -110,8 +110,8 @@ class Course {
 
   double source() const { return source_; }  ///< kNoHeight: the line has no height anywhere
 
-  /// Lowers the water where shared vertices are lower, and lowers higher shared vertices. Returns true if a shared
-  /// vertex became lower.
+  /// Lowers the water to shared vertices that are lower, and lowers shared vertices that are higher. Returns true if a
+  /// shared vertex became lower.
   bool flow(std::map<std::array<double, 2>, double>& levels) {
     double level = std::numeric_limits<double>::infinity();
     bool has_lowered = false;

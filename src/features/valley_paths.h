@@ -18,10 +18,10 @@ struct ValleyPath {
   std::vector<std::size_t> joints;  ///< ascending indices of the samples at which other paths end
 };
 
-/// Links low samples to paths. Low samples and all samples within two of them form connected parts. The search of each
-/// part starts at its lowest sample and always adds the lowest neighbour (Prim), so paths run as low as possible. Where
-/// branches meet, the one with most low samples continues and the others end. Branches have at least kShortestValley
-/// low samples, half of them clearly low.
+/// Links low samples to paths. Low samples and all samples within two samples of them form connected parts. The search
+/// of each part starts at its lowest sample and always adds the lowest neighbour (Prim), so paths run as low as
+/// possible. Where branches meet, the one with the most low samples continues and the others end. Branches have at
+/// least kShortestValley low samples, half of them clearly low.
 ///
 /// `is_left_out`: true for samples that no path may use. Ties in height are broken by raster order.
 std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,

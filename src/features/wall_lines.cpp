@@ -12,7 +12,7 @@ namespace {
 
 /// In kLatticeSteps: half the gap between top and foot on a crack; the spacing of pairs on cracks, and in cells. On the
 /// streets of Athens, twice as many pairs need five times the time and save 1 % of the vertices; without pairs in cells
-/// there are 4 % more.
+/// there are 4 % more vertices.
 constexpr std::int32_t kHalfGap = 2, kPairStep = 16, kCellStep = 64;
 /// Cost of a pair of vertices, and of a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;

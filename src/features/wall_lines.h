@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// A vertex of a line, in kLatticeSteps of a sample.
+/// A vertex of a line, in units of 1 / kLatticeSteps of a sample.
 struct WallVertex {
   Point at;
   float height;
@@ -22,10 +22,10 @@ struct Wall {
   std::vector<WallVertex> top, foot;
 };
 
-/// The parts of a chain where lines justify their vertices, each with the fewest vertices.
+/// The parts of a chain in which lines are worth their vertices, each part with the fewest vertices.
 ///
-/// Along each part, the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, and
-/// none between them. Vertices lie on cracks. Memory: kWallBytesPerCrack.
+/// Along each part, the high samples of its cracks lie on the left of `top`, the low samples on the right of `foot`,
+/// and no samples between these lines. Vertices lie on cracks. Memory: kWallBytesPerCrack.
 std::vector<Wall> find_walls(const CrackChain& chain, double tolerance);
 
 inline constexpr std::uint64_t kWallBytesPerCrack = 1000;

@@ -28,7 +28,6 @@ struct ShoreBox {
   bool is_empty() const { return cols <= 0 || rows <= 0; }
 };
 
-/// Rasterises polygons.
 class Shores {
  public:
   Shores(const HeightField& field, const WaterOptions& options)
@@ -47,7 +46,6 @@ class Shores {
     return polygons;
   }
 
-  /// The samples that level_of() reads.
   Result<LineSamples> read_samples(const std::vector<Rings>& polygons) const {
     if (field_.samples != nullptr) return LineSamples(Raster{field_.samples, field_.cols, field_.rows});
     std::vector<Segment> courses;
@@ -125,7 +123,6 @@ class Shores {
   MapToSamples to_samples_;
 };
 
-/// Samples in lakes.
 struct LakeRun {
   std::uint32_t lake = 0;
   SampleRun samples;
@@ -294,7 +291,6 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
   return {};
 }
 
-/// Lakes and their rings.
 struct LakesFound {
   std::vector<Lake> lakes;
   std::vector<Rings> rings;

@@ -44,7 +44,7 @@ bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
   for (std::size_t i = 1; i < n; ++i) polygon_.push_back(star_.ring[(hub_ + i) % n]);
   for (std::size_t i = 2; i + 1 < m; ++i) {
     const Patch::Id beyond = other_.ring[(back + i) % m];
-    // With a third common neighbour, triangles between would be inverted.
+    // If both ends have a third common neighbour, the triangles between would be inverted.
     if (std::find(polygon_.begin(), polygon_.end(), beyond) != polygon_.end()) return false;
     polygon_.push_back(beyond);
   }

@@ -18,7 +18,6 @@ namespace {
 constexpr std::int64_t kBlocksPerSide = 8;
 constexpr std::size_t kBlocks = 64;
 
-/// The bounding box of points.
 struct PointBox {
   Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
   void add(Point p) {

@@ -1,7 +1,8 @@
 // Cuts a triangulation into patches, and joins them again.
 //
 // A triangle belongs to the square of samples that contains its centre. This rule uses only geometry, so patches are
-// the same on any number of threads. Vertices on borders between patches are locked; squares shifted by half free them.
+// the same on any number of threads. Vertices on borders between patches are locked; squares shifted by half a side
+// free these vertices.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,6 @@ struct FreeSides {
   bool left = true, top = true, right = true, bottom = true;
 };
 
-/// Assigns triangles to patches.
 class PatchCutter {
  public:
   /// Raster, triangulation and lattice must outlive this object. `points`: as in FitOptions.
@@ -42,11 +42,11 @@ class PatchCutter {
   /// range of the arithmetic: longer than kMaxFitSteps, or heights beyond kMaxScanHeight.
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
-  /// The triangulation with the triangles of the changed patches, patch by patch, then those outside. Removed vertices
-  /// are omitted; moved ones have their new places. `numbers`: the new number of each old vertex, or kNone. `joined`:
-  /// the lattice of the new vertices; its steps are an input. Fixed vertices stay fixed. Nodes that were added to a
-  /// patch become new vertices with the last numbers. REQUIRES: patches are packed; joined.steps equals the cutter's,
-  /// or is kLatticeSteps where the cutter's is 1.
+  /// The joined triangulation: the triangles of the changed patches, patch by patch, then the triangles outside.
+  /// Removed vertices are omitted; moved ones have their new places. `numbers`: the new number of each old vertex, or
+  /// kNone. `joined`: the lattice of the new vertices; its steps are an input. Fixed vertices stay fixed. Nodes that
+  /// were added to a patch become new vertices with the last numbers. REQUIRES: patches are packed; joined.steps equals
+  /// the cutter's, or is kLatticeSteps where the cutter's is 1.
   Triangulation join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
                      std::vector<Vertex>& numbers, VertexLattice& joined) const;
 

@@ -18,7 +18,6 @@ namespace scarp {
 template <typename CornerAt>
 class Fan {
  public:
-  /// A place with its height.
   struct Raised {
     FitCorner place;
     double least = 0;      ///< the least energy of any height
@@ -37,8 +36,8 @@ class Fan {
     return true;
   }
 
-  /// The height of least energy within the rules' limits. If `seeks_room(energy)` is true, the nearest height in the
-  /// room, if there is a room. place.z is the initial height.
+  /// The height of least energy within the rules' limits. If `seeks_room(energy)` is true and there is a room
+  /// (height_room.h): the nearest height in it. place.z is the initial height.
   template <typename SeeksRoom>
   Raised raise(const TriangleError& error, const MoveRules& rules, FitCorner place, SeeksRoom seeks_room) const {
     TriangleError::Moments moments{};

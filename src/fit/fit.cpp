@@ -16,10 +16,9 @@ namespace {
 constexpr double kWorthARound = 1e-3;
 constexpr int kPoorRounds = 2;
 
-/// True if the mesh is one patch.
 bool is_small(const Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
 
-/// Side of squares of some kPatchTriangles; on a narrow raster, length of pieces.
+/// Side of squares with some kPatchTriangles triangles; on a narrow raster, length of pieces.
 std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   const double cols = raster.cols, rows = raster.rows;
   const double area = cols * rows * kPatchTriangles / static_cast<double>(tin.triangle_count());
@@ -27,7 +26,6 @@ std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   return static_cast<std::int32_t>(std::clamp(side, 2.0, std::max(2.0, std::max(cols, rows))));
 }
 
-/// True if some errors have energies.
 bool has_energies(const FitOptions& options) {
   const auto has = [](double bound) { return bound > 0x1p-60 && bound < 0x1p60; };
   if (options.read_bounds) return true;
@@ -48,8 +46,8 @@ Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattic
     return std::min(most, options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin()));
   };
   const int repairs = has_energies(options) ? options.depth.rounds : 0;
-  // A round of repair needs some five times the time of removal. The second round of removal and the last one of repair
-  // handle few vertices other than those on earlier borders.
+  // A round of repair needs some five times the time of removal. The second round of removal and the last round of
+  // repair handle few vertices other than those on earlier borders.
   const double removal = 1.0 / (1 + 5 * repairs);
   const std::int32_t first_side = side();
   bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, options.depth.relocates);

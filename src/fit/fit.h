@@ -7,12 +7,13 @@
 // same on any number of threads.
 //
 // Compared with a single patch, kHighDepth in patches ends with 98.9 to 100.6 % of the triangles (32 cases: eight
-// rasters, 2 to 0.2 % of the relief). With fixed squares and without the last round it was 101.1 to 101.3 % on a raster
-// of 1197 x 643 samples. The last round needs some 3 % of the time.
+// rasters, 2 to 0.2 % of the relief). With fixed squares and without the last round, the share was 101.1 to 101.3 % on
+// a raster of 1197 x 643 samples. The last round needs some 3 % of the time.
 //
-// If there is time left, rounds continue. Repair soon finds nothing more, so all vertices are first moved a little,
-// within the bound. Max at 1 % of the relief, with shapes of at least a tenth, ends with 0.237 of greedy's triangles on
-// Fuji and 0.263 on Crater Lake; after five to six times its time, with 0.230 and 0.254.
+// If there is time left, rounds continue. Repair soon finds nothing more, so each of these rounds first moves all
+// vertices a little, within the bound. At 1 % of the relief, with shapes of at least a tenth, effort max ends with
+// 0.237 of greedy's triangles on Fuji and 0.263 on Crater Lake. With five to six times the time, it ends with 0.230 and
+// 0.254.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,6 @@
 
 namespace scarp {
 
-/// The steps of fitting after removal.
 struct FitDepth {
   /// After the first removal each vertex moves to a better sample, and removal continues (relocation.h).
   bool relocates = false;
@@ -59,10 +59,10 @@ struct SquareGoal {
 struct FitOptions {
   double threshold = 0;
   /// A bound for each sample, row-major like the raster: at least 0, +infinity for none, no NaN. The bounds replace the
-  /// threshold, and energies count errors in bounds. EMPTY: the threshold applies to all samples.
+  /// threshold, and energies use the ratio of error to bound. EMPTY: the threshold applies to all samples.
   std::span<const float> bounds = {};
-  /// Scattered samples, which must outlive the call, instead of the raster's. The raster then has only a size, in cells
-  /// of kLatticeSteps; vertices lie on the lattice and have their own heights. DEFAULT: null, the raster's.
+  /// Scattered samples instead of the raster's; they must outlive the call. The raster then has only a size, in cells
+  /// of kLatticeSteps; vertices lie on the lattice and have their own heights. DEFAULT: null, the raster's samples.
   const ScatteredSamples* points = nullptr;
   /// Errors are norms over several fields. Then vertices stay on samples, and heights have no separate bound. Must
   /// outlive the call. DEFAULT: null, errors of heights only.
@@ -77,25 +77,27 @@ struct FitOptions {
   /// one worse.
   double min_shape = 0;
   /// The floor does not apply to removal, nor to repair of patches where more than kThinShare of the triangles are
-  /// below it after removal. There long thin triangles suit the heights.
+  /// below it after removal. In such patches, long thin triangles suit the heights.
   bool floor_yields = false;
-  double aspect = 1;  ///< aspect of a sample: its height over its width, with which shapes are computed
+  double aspect = 1;  ///< size of a sample in y over its size in x; shapes are computed with it
   /// Replaces min_shape and aspect: rules on angles and edge lengths. DEFAULT: none.
   std::optional<ShapeRule> shape = std::nullopt;
   /// Repair may place vertices between samples, on the lattice of fitting, at heights of their own.
   bool vertices_are_free = false;
-  std::int32_t patch_side = 0;  ///< in samples; 0: squares of some kPatchTriangles, one for small meshes
+  std::int32_t patch_side = 0;  ///< in samples; 0: squares of some kPatchTriangles triangles, one square for small
+                                ///< meshes
   std::int32_t most_side = 0;   ///< largest side of squares, in samples; 0: no limit
   /// Copies the samples of a window to `to`, nodata as NaN; may throw; called on any thread. DEFAULT: none, the raster
   /// has the samples.
   ReadWindow read = {};
-  /// The same for their bounds, instead of `bounds`. DEFAULT: none, the threshold or `bounds` apply.
+  /// The same for the bounds of samples, instead of `bounds`. DEFAULT: none, the threshold or `bounds` apply.
   ReadWindow read_bounds = {};
   std::int64_t most_window = 0;  ///< samples; patches with larger windows stay unchanged; 0: no limit
   /// Receives the finished share of the work and the number of vertices, on the calling thread; false stops with
   /// kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
-  /// Called often, on any thread; once true, it must stay true. Then the rounds end with the current mesh.
+  /// Called often, on any thread. Once it returns true, it must always return true, and the rounds end with the current
+  /// mesh.
   std::function<bool()> is_time_up = {};
   /// If the depth has rounds, more follow until the time is up or two in a row remove less than a thousandth of the
   /// vertices. Each of them begins with a shake of all vertices.
@@ -105,14 +107,14 @@ struct FitOptions {
 };
 
 /// Share of a patch's triangles. After removal, 0.03 to 0.11 of the triangles are below a floor of a tenth on natural
-/// land, 0.04 to 0.15 on trees, 0.27 to 0.51 on buildings.
+/// land, 0.04 to 0.15 in rasters of trees, 0.27 to 0.51 of buildings.
 inline constexpr double kThinShare = 0.15;
 
 /// A patch of this many triangles, with its samples, fits the caches of one core.
 inline constexpr std::int64_t kPatchTriangles = 8192;
 
-/// The most memory per vertex of the input mesh, including the mesh: the sum of both with one thread, and the second
-/// again for each further thread.
+/// The most memory per vertex of the input mesh, including the mesh: with one thread, the sum of these two constants;
+/// each further thread adds the second.
 inline constexpr std::uint64_t kFitBytesPerVertex = 200;
 inline constexpr std::uint64_t kFitBytesPerVertexAndThread = 6;
 
@@ -126,8 +128,9 @@ struct FitCounts {
 struct Fitted {
   Triangulation tin;  ///< its points count in lattice.steps
   FitCounts counts;
-  /// If vertices were free, steps of kLatticeSteps, and heights; else vertices are samples. Heights lie between the
-  /// lowest and the highest valid sample of the raster, so no vertex is below a sea of height 0.
+  /// If vertices were free, this lattice has kLatticeSteps steps per sample, and heights; otherwise vertices are
+  /// samples. Heights lie between the lowest and the highest valid sample of the raster, so no vertex is below a sea of
+  /// height 0.
   VertexLattice lattice;
   bool is_cut_short = false;  ///< because the time was up
 };
@@ -136,12 +139,12 @@ struct Fitted {
 ///
 /// Returns a triangulation of some of the vertices with the same domain and constraints. Its triangles are within the
 /// threshold, or within the sample's bound, at every sample of the domain, in exact arithmetic. Vertices of the outline
-/// stay, except on the sides of the rectangle; repair may move the others, along a side if they lie on one. Triangles
-/// with heights or extents beyond kMaxScanHeight or kMaxFitSteps stay unchanged. Repair is skipped for thresholds
-/// beyond 2⁻⁶⁰ … 2⁶⁰, and uses samples only for sides beyond kMaxCoordinate / kLatticeSteps samples. Fails with
-/// kCancelled only. REQUIRES: the triangles inside are within the threshold, by the norm's find_breach if there is one,
-/// and have valid corners; threshold >= 0 and finite. Vertices are free, or the depth has no rounds, or each vertex is
-/// a sample unless it is fixed or an end of a constrained edge within the rectangle.
+/// stay, except on the sides of the rectangle. Repair may move other vertices; those on a side move only along it.
+/// Triangles with heights or extents beyond kMaxScanHeight or kMaxFitSteps stay unchanged. Repair is skipped for
+/// thresholds outside 2⁻⁶⁰ … 2⁶⁰. For sides longer than kMaxCoordinate / kLatticeSteps samples, it places vertices only
+/// on samples. Fails with kCancelled only. REQUIRES: the triangles inside are within the threshold, by the norm's
+/// find_breach if there is one, and have valid corners; threshold >= 0 and finite. Vertices are free, or the depth has
+/// no rounds, or each vertex is a sample unless it is fixed or an end of a constrained edge within the rectangle.
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);

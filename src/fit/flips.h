@@ -2,10 +2,10 @@
 //
 // Greedy insertion uses Delaunay edges, which ignore heights. Removal chooses the edges of each ring, but not those
 // between rings. A flip that lowers the energy Σ (error / threshold)⁸ turns edges along ridges, and moves a large error
-// out of a ring. Within repair, flips save up to 3 % of the triangles on samples, 1 % with free vertices (Fuji and
-// Crater Lake at 2 to 0.5 % of the relief).
+// out of a ring. Within repair, flips save up to 3 % of the triangles with vertices on samples, and 1 % with free
+// vertices (Fuji and Crater Lake at 2 to 0.5 % of the relief).
 //
-// Stars of a ring overlap, so repair tries the same flip repeatedly, half of the times with unchanged triangles. A
+// Stars of a ring overlap, so repair tries the same flip repeatedly, half of the time with unchanged triangles. A
 // recently refused flip is stored with its inputs, and refused again without a scan.
 #pragma once
 
@@ -33,7 +33,7 @@ class Flips {
   bool heal(const TriangleError& error, Patch::Id face, unsigned edge);
 
  private:
-  /// A flip and its energy limit; equal from either of its two triangles.
+  /// A flip and its energy limit; the same from either of its two triangles.
   struct Trial {
     std::array<FitCorner, 4> corners;
     float limit = 0;

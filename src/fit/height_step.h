@@ -17,7 +17,7 @@ namespace scarp {
 
 struct HeightStep {
   double rise = 0;    ///< in thresholds, or units
-  double energy = 0;  ///< there
+  double energy = 0;  ///< energy after the rise
 };
 
 /// The minimum between the lowest and the highest rise; rise 0 if nothing can be gained. The rise is accurate to 2⁻¹⁶ ·
@@ -27,7 +27,6 @@ HeightStep best_height(const TriangleError::Moments& moments, double lowest, dou
 /// The same for the energy Σ t², which is a parabola.
 HeightStep best_even_height(const TriangleError::Moments& moments, double lowest, double highest);
 
-/// The energy after a rise.
 double energy_after(const TriangleError::Moments& moments, double rise);
 
 /// By Minkowski's inequality the minimum lies within twice this rise. 1 if the moments do not determine it.

@@ -2,9 +2,9 @@
 //
 // Candidates are points on each edge within the patch, at 0.3, 0.5 and 0.7 of it, and the centre of each triangle. The
 // fan of triangles about a candidate has the energy E(d) = Σ (t + λ d)² when its height rises by d; the minimum is
-// exact (height_step.h). The gain is the energy of the replaced triangles less that minimum. The candidate of the
+// exact (height_step.h). The gain is the energy of the replaced triangles less that minimum. The candidate with the
 // largest gain is inserted first; then its neighbours make their steps (repair.h). The gain is a poor estimate of a
-// vertex' final worth, which comes mostly from those steps, but it ranks the places (bench/quality/squares.csv).
+// vertex's final worth, which comes mostly from these steps, but it ranks the places (bench/quality/squares.csv).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// First-touch copies: the elements of an array before a transaction, while the transaction can be undone.
+// First-touch copies: the earlier elements of an array, stored while a transaction can still be undone.
 //
 // Repair changes a few dozen triangles and often gives up, so a copy of the whole array would cost more than the work.
 // Each element is copied once, before its first change; an undo restores the copies. Elements are neither added nor
@@ -32,7 +32,7 @@ class Journal {
     stamps_[index] = now_;
     copies_.push_back({index, items[index]});
   }
-  /// In the order of the first touches, since begin().
+  /// The copies since begin(), in the order of the first touches.
   std::span<const Copy> copies() const { return copies_; }
   void commit() { is_open_ = false; }
   void roll_back(std::vector<T>& items) {

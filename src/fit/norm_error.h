@@ -1,14 +1,15 @@
 // Errors of the samples of one trial triangle, with heights and channels combined.
 //
 // Each field has its own plane through its values at the corners, which are samples. The error of a sample is the norm
-// of the fields' errors, each times its scale. As for heights only (triangle_error.h), the scan uses float32, eight
-// samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error metric
-// of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
+// of the fields' errors, each multiplied by its scale. As for heights only (triangle_error.h), the scan uses float32,
+// eight samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error
+// metric of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
 //
-// The unit of errors is the threshold, or with bounds of samples a power of two near them. The guard is the sum of the
-// planes' guards for a threshold of 0 (scan_plane.h), times their scales, and of roundings that grow with the norm.
-// With u = 2⁻²⁴ these are 5u for each error, u for a scale, u for its product, mu for the sum of m fields, and 6u for
-// squares, roots and the bound. The total is less than (m + 12)u; kWidening is twice as much.
+// The unit of errors is the threshold or, if samples have bounds, a power of two near these bounds. The guard is a sum
+// of two parts: the planes' guards for a threshold of 0 (scan_plane.h), multiplied by their scales, and roundings that
+// grow with the norm. With u = 2⁻²⁴ these roundings are 5u for each error, u for a scale, u for its product, mu for the
+// sum of m fields, and 6u for squares, roots and the bound. The total is less than (m + 12)u; kWidening is twice as
+// much.
 #pragma once
 
 #include <array>
@@ -49,7 +50,7 @@ class NormError {
 
   /// The pull of the samples on the first corner, a Pull for each field: the energy's derivatives for the norms of
   /// squares and of the largest error, whose eighth powers are summed. Norm::kSum uses the formula of the squares.
-  /// REQUIRES, cost: as assess().
+  /// REQUIRES, cost: as for assess().
   void pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const;
 
   const Raster& heights() const { return samples_.heights; }

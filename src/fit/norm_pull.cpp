@@ -20,7 +20,7 @@ Floats sixth_power(Floats values) {
   return squares * squares * squares;
 }
 
-/// The weight of errors at four samples, equal for all fields; with Norm::kMax each field has its own.
+/// The weight of errors at four samples. It is equal for all fields, but with Norm::kMax each has its own.
 template <Norm kNorm, ErrorRule::Power kPower>
 Floats weight_of(Floats norm, Floats error) {
   if constexpr (kPower == ErrorRule::Power::kTwo) return all(1);

@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// The form in which norms are summed and compared: the square of a root of squares, else the norm.
+/// The form in which norms are summed and compared: the square if the norm is a root of squares, else the norm itself.
 template <Norm kNorm>
 Floats measure_of(Floats norm) {
   return kNorm == Norm::kSquares ? norm * norm : norm;
@@ -25,7 +25,6 @@ struct FieldPlane {
 
 struct NormPlanes;
 
-/// The samples, fields and bounds to read.
 struct NormScan {
   const FitNorm& norm;
   const NormError::Samples& samples;
@@ -48,7 +47,7 @@ struct NormScan {
                   const Visit& visit) const;
 };
 
-/// The planes of one triangle. They are not cleared, since most triangles are small and fields few.
+/// The planes of one triangle. They are not cleared, since most triangles are small and there are few fields.
 struct NormPlanes {
   TriangleTask task;
   std::array<FieldPlane, kMostFitFields> fields;
@@ -80,7 +79,7 @@ struct NormPlanes {
   }
 };
 
-/// The norms of eight samples' errors, as measure_of(); 0 for masked samples.
+/// The norms of eight samples' errors, in the form of measure_of(); 0 for masked samples.
 template <Norm kNorm>
 struct NormEight {
   Floats low{}, high{};

@@ -1,4 +1,4 @@
-// The workbench of fitting: a piece of a triangulation that is changed in place, a star at a time.
+// The workbench of fitting: a piece of a triangulation that is changed in place, one star at a time.
 //
 // A patch contains only triangles of the domain. Its border consists of the edges that must not change: edges to other
 // patches or to the outside, and constrained edges, which are borders on both sides. Their ends are locked. The
@@ -40,7 +40,7 @@ class Patch {
   struct Face {
     std::array<Id, 3> corners;  ///< positive; corners[0] is kNone if the triangle was removed
     std::array<Link, 3> links;
-    float worst, energy;  ///< values of TriangleError::Verdict; negative: unknown
+    float worst, energy;  ///< values in TriangleError::Verdict; negative: unknown
   };
   static_assert(sizeof(Face) == 32);
 
@@ -91,8 +91,8 @@ class Patch {
     faces_[f].energy = energy;
   }
 
-  /// Around a locked vertex, only the part from border to border that contains one of its triangles. REQUIRES: v is not
-  /// removed. Cost: O(its degree).
+  /// Around a locked vertex, the star is only the part from border to border that contains one of its triangles.
+  /// REQUIRES: v is not removed. Cost: O(its degree).
   void find_star(Id v, Star& star) const;
 
   /// Removes v and replaces its star by the triangles. REQUIRES: they triangulate the star's ring, are positive and in
@@ -100,8 +100,8 @@ class Patch {
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
 
   /// Inserts a vertex within the face, or on its edge if one is given. Three triangles around the vertex replace the
-  /// face, or four the edge's two faces; their errors are unknown. Returns the vertex. REQUIRES: the triangles are
-  /// positive; the edge is no border; no transaction is open.
+  /// face; on an edge, four replace its two faces. The errors of these triangles are unknown. Returns the vertex.
+  /// REQUIRES: the triangles are positive; the edge is no border; no transaction is open.
   Id insert(const FitCorner& at, Id f);
   Id insert(const FitCorner& at, Id f, unsigned edge);
 
@@ -113,7 +113,7 @@ class Patch {
   /// REQUIRES: the edge is no border.
   Quad quad(Id f, unsigned edge) const;
 
-  /// Changes the diagonal: (c, a, d) replaces q.face, (d, b, c) of q.beyond. REQUIRES: both are positive.
+  /// Changes the diagonal: (c, a, d) replaces q.face, and (d, b, c) replaces q.beyond. REQUIRES: both are positive.
   void flip(const Quad& q);
 
   /// REQUIRES: the triangles around v stay positive; a vertex on a side stays on it.

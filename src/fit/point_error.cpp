@@ -175,7 +175,7 @@ PointError::Verdict PointError::assess(const Corners& corners, float energy_limi
   return verdict;
 }
 
-/// Calls sums.add(t, λ) for each four samples: errors in thresholds, and weights of the first corner.
+/// Calls sums.add(t, λ) for every four samples: errors in thresholds, and weights of the first corner.
 template <class Sums>
 Sums PointError::ask(const Corners& corners, Sums sums) const {
   const Task task(corners);

@@ -1,4 +1,4 @@
-// Errors of trial triangles at scattered samples; triangle_error.h handles those of rasters.
+// Errors of trial triangles at scattered samples; triangle_error.h handles samples of rasters.
 //
 // A sample's weights in a triangle are exact areas: coordinates are integer steps below 2²⁴, so products of their
 // differences fit a double. A sample on an edge counts in both triangles. Errors are computed in double and decided
@@ -22,7 +22,7 @@ class PointError final : public ScatteredErrors {
   /// REQUIRES: threshold >= 0, finite.
   void read(const PointSamples& samples, const Patch::Window& window, double threshold);
 
-  /// Triangles so steep that the samples' rounding matters also break the bound, but have an energy.
+  /// A triangle so steep that the rounding of sample places matters also breaks the bound, but has an energy.
   Verdict assess(const Corners& corners, float energy_limit, double limit, ErrorRule::Power power) const override;
   TriangleError::Pull pull(const Corners& corners, ErrorRule::Power power) const override;
   void add_moments(const Corners& corners, ErrorRule::Power power, TriangleError::Moments& moments) const override;

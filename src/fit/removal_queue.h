@@ -18,7 +18,7 @@ namespace scarp {
 
 class RemovalQueue {
  public:
-  /// All must outlive this object. Meanwhile, nodes are neither added nor deleted.
+  /// All arguments must outlive this object. During its lifetime, nodes are neither added nor deleted.
   RemovalQueue(const Patch& patch, const TriangleError& error, const ShapeRule& shape)
       : patch_(patch), shape_(shape), search_(error, shape), notes_(patch.node_count()), queue_(patch.node_count()) {
     for (Patch::Id v = 0; v < patch.node_count(); ++v) notes_[v].witness = error.sample_near(patch.at(v));
@@ -42,7 +42,6 @@ class RemovalQueue {
     }
   }
 
-  /// Number of rings examined.
   std::uint64_t searches() const { return searches_; }
 
  private:

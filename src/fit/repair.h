@@ -9,16 +9,16 @@
 // or the decrease of either.
 //
 // The following was measured with a slack of 1.5, 4 rounds and removal without relocation, before kHighDepth got a
-// slack of 3, rooms and the limits of hope. Triangles relative to greedy, geometric means of 19 cases in which greedy
-// needs less than a quarter of the full grid: removal 0.544, with repair on samples 0.381, with free vertices 0.291;
-// for 6 other cases 0.641, 0.606, 0.443. The time is 2 to 40 times that of greedy insertion, most for small meshes.
-// Deeper repair with free vertices at 1 % on Fuji and Crater Lake: a third round over all vertices leaves 0.271 and
-// 0.310 instead of 0.276 and 0.317. With a slack of 2.5 and 6 rounds of repair in addition, 0.249 and 0.277 remain, in
-// four times the time; with probes in every second round too, 0.249 and 0.271, in one and a half times that. Steps of
-// all vertices of a ring, instead of those at triangles above 0.9 of the bound, save at most 0.5 % of the triangles,
-// for a tenth more time. Triangles on Fuji at 1 %, with vertices on samples: for powers 4, 6, 8, 12, 16 of the energy
-// 0.358, 0.344, 0.344, 0.340, 0.340; for a slack of 1.3, 1.5, 2 0.359, 0.344, 0.335, in some 0.6, 1 and 1.5 times the
-// time; for 2, 4, 8 rounds 0.349, 0.344, 0.343.
+// slack of 3, rooms and the limits of the excess. Triangles relative to greedy insertion, as geometric means of 19
+// cases in which greedy needs less than a quarter of the full grid: 0.544 with removal, 0.381 with repair on samples,
+// 0.291 with repair and free vertices; for 6 other cases 0.641, 0.606, 0.443. The time is 2 to 40 times that of greedy
+// insertion; the factor is largest for small meshes. Deeper repair with free vertices at 1 % on Fuji and Crater Lake: a
+// third round over all vertices leaves 0.271 and 0.310 instead of 0.276 and 0.317. With a slack of 2.5 and 6 rounds of
+// repair in addition, 0.249 and 0.277 remain, in four times the time; with probes in every second round too, 0.249 and
+// 0.271 remain, in one and a half times that time. Steps of all vertices of a ring, instead of those at triangles above
+// 0.9 of the bound, save at most 0.5 % of the triangles, for a tenth more time. Triangles on Fuji at 1 %, with vertices
+// on samples: for powers 4, 6, 8, 12, 16 of the energy 0.358, 0.344, 0.344, 0.340, 0.340; for a slack of 1.3, 1.5, 2
+// 0.359, 0.344, 0.335, in some 0.6, 1 and 1.5 times the time; for 2, 4, 8 rounds 0.349, 0.344, 0.343.
 #pragma once
 
 #include <cstdint>
@@ -37,16 +37,17 @@ namespace scarp {
 struct RepairDepth {
   int rounds = 6;          ///< number of rounds of steps and flips
   double slack = 1.5;      ///< initial error limit of a ring's triangles, in thresholds, 1 … 4
-  bool probes = false;     ///< every second round, vertices of the ring also probe around (VertexStep::probe)
+  bool probes = false;     ///< in every second round, vertices of the ring also try places around them
+                           ///< (VertexStep::probe)
   bool rooms = false;      ///< heights of free vertices seek room within the bound (height_room.h)
   bool collapses = false;  ///< with free vertices, a pass of collapses after each round (collapse.h)
   double patience = 1;     ///< factor of the excesses up to which repair continues
-  bool mends_all = false;  ///< one round over the whole ring, also far from the bound
+  bool mends_all = false;  ///< one round over the whole ring, including triangles far from the bound
 };
 
 class Repair {
  public:
-  /// `loose`: with the slack of the depth. Patch and errors must outlive this object.
+  /// `loose`: errors with the slack of the depth. Patch and errors must outlive this object.
   Repair(Patch& patch, const TriangleError& loose, const RepairDepth& depth, const MoveRules& rules)
       : patch_(patch), loose_(loose), depth_(depth), flips_(patch, rules.shape), step_(patch, rules, depth.rooms) {}
 

@@ -176,7 +176,7 @@ bool RingSearch::cross_out() {
 }
 
 /// Finds the intervals that can be triangulated, from short to long ones, then those that a triangulation of the whole
-/// ring needs. False if the ring has no triangulation. Without branches, which would be unpredictable.
+/// ring needs. False if the ring has no triangulation. The code avoids branches, which would be unpredictable.
 bool RingSearch::connect() {
   std::array<Set, kMostCorners> open_to;  // first corners of intervals that can be triangulated
   for (std::size_t j = 1; j < size_; ++j) open_to[j] = only(j - 1);

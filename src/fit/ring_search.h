@@ -4,12 +4,13 @@
 // between them with the triangle (i, q, j). Most of the k³/6 triangles break the bound, so few are scanned:
 //
 //   1. Pairwise cross products around a sample give, for all triangles at once, their orientation, whether they contain
-//      the sample, and their height there. The first such sample is the vertex itself: it is there because the surface
+//      the sample, and their height there. The first sample is the vertex itself, which exists because the surface
 //      needs it. Triangles are excluded if they are not positive, too thin, or break the bound at the sample.
-//   2. Bit sets mark the intervals (i, j) that can still be triangulated, and those that are part of a whole. If the
-//      ring is not among them, the vertex stays, and no row was scanned.
+//   2. Bit sets mark the intervals (i, j) that can still be triangulated, and those that a triangulation of the whole
+//      ring can use. If the whole ring cannot be triangulated, the vertex stays, and no row was scanned.
 //   3. The remaining triangles are scanned, short intervals first, each only until its energy exceeds the best.
-//      If one breaks the bound, 1 and 2 are repeated with the sample that shows it, which excludes others.
+//      If a triangle breaks the bound at a sample, steps 1 and 2 are repeated with this sample, which excludes other
+//      triangles.
 //
 // Any triangulation of the ring by positive triangles covers its inside exactly, so no test examines edges.
 #pragma once
@@ -34,10 +35,10 @@ class RingSearch {
   explicit RingSearch(const TriangleError& error, const ShapeRule& shape = {})
       : error_(error), shape_(shape), more_z_(error.field_count() - 1) {}
 
-  /// Finds the triangulation of the ring with the least energy whose triangles are positive, within the limit of
-  /// `error`, and have an allowed shape for a removal of the triangles around the hub. False if none exists. `hub`:
-  /// position of the vertex. `witness`: a sample that excluded triangles last time; updated if the result is false.
-  /// REQUIRES: 3 <= ring.size() <= kMostCorners.
+  /// Finds the triangulation of the ring with the least energy. Its triangles are positive and within the limit of
+  /// `error`, and their shapes are allowed if the triangles around the hub are removed. False if there is no such
+  /// triangulation. `hub`: position of the vertex. `witness`: a sample that excluded triangles last time; updated if
+  /// the result is false. REQUIRES: 3 <= ring.size() <= kMostCorners.
   bool find(std::span<const FitCorner> ring, const FitCorner& hub, Point& witness);
 
   /// Energy of the triangulation found. In a tie the first triangle in the order of the search wins.

@@ -12,7 +12,7 @@ namespace scarp {
 
 namespace {
 
-/// Width in edges of the strip along earlier borders where the last round of repair begins.
+/// Width, in edges, of the strip along earlier borders in which the last round of repair begins.
 constexpr int kBorderWidth = 2;
 
 /// Also marks the neighbours of marked nodes.
@@ -131,8 +131,8 @@ Fitted Rounds::finish() {
   return std::move(fitted_);
 }
 
-/// Cuts patches, calls work(patch, vertices, error), which counts its changes, for each, and joins them on a lattice of
-/// `steps` steps.
+/// Cuts patches, calls work(patch, vertices, error) for each, and joins them on a lattice of `steps` steps. work()
+/// counts its changes.
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());

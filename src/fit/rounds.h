@@ -21,7 +21,8 @@ class Rounds {
   /// the whole work after the round. This and the other rounds return false if cancelled.
   bool run(const PatchGrid& grid, double end, bool relocates = false);
 
-  /// A round of removal with repair. `only_held`: begins with the vertices near those on borders of repair so far.
+  /// A round of removal with repair. `only_held`: begins with the vertices near those that were on borders of repair so
+  /// far.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false);
 
   /// The options of a round of repair. `shake`: see RepairOptions.
@@ -39,7 +40,7 @@ class Rounds {
   void forget_held() { held_.assign(held_.size(), 0); }
 
   const Triangulation& tin() const { return fitted_.tin; }
-  /// Rules of moves other than removal, without the floor if it yields.
+  /// The rules of moves other than removal, without the floor if the floor yields.
   MoveRules rules_of(const Patch& patch) const;
 
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }

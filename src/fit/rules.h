@@ -10,7 +10,6 @@
 
 namespace scarp {
 
-/// The positions allowed for vertices.
 enum class Freedom : std::uint8_t {
   kSamples,  ///< on valid samples, at their heights
   kLattice,  ///< on the lattice of fitting, at any height
@@ -28,11 +27,11 @@ struct TriangleShape {
 };
 
 /// The limits of thin triangles and short edges. A move must not create a triangle thinner than the floor unless it
-/// removes one as thin, nor a too short edge unless it removes one as short. So slivers that the initial mesh has or
-/// its outline needs never become worse, and do not prevent moves.
+/// removes a triangle as thin, nor a too short edge unless it removes an edge as short. So slivers that the initial
+/// mesh has or its outline needs never become worse, and do not prevent moves.
 struct ShapeRule {
   double floor = 0;       ///< 0: any shape
-  double aspect = 1;      ///< aspect of a sample: its height over its width
+  double aspect = 1;      ///< size of a sample in y over its size in x
   bool by_angle = false;  ///< the form is the squared sine of the smallest angle
   double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with a longer edge has form 0
   double shortest_square = 0;                                       ///< shorter edges are too short
@@ -55,14 +54,12 @@ struct ShapeRule {
     const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
     return {std::min(most, area * aspect / longest * (area * aspect / middle)), edge};
   }
-  /// True if an edge is too short.
   bool is_short(const FitCorner& p, const FitCorner& q) const { return square(p, q) < shortest_square; }
-  /// Squared length of an edge.
   double square(const FitCorner& p, const FitCorner& q) const {
     const double x = q.x - p.x, y = (q.y - p.y) * aspect;
     return x * x + y * y;
   }
-  /// The floor lowered for a move that removes the triangle.
+  /// The floor `to`, lowered for a move that removes the triangle.
   TriangleShape lowered(const TriangleShape& to, const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
     return to.worse_of(shape(a, b, c));
   }

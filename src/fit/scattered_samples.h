@@ -45,8 +45,8 @@ class ScatteredSamples {
   float lowest() const { return lowest_; }
   float highest() const { return highest_; }
 
-  /// The errors over a window of cells of kLatticeSteps, stored in `kept`, whose memory is reused. REQUIRES: `kept` is
-  /// empty or from this function; threshold >= 0, finite.
+  /// The errors over a window of cells of kLatticeSteps. They are stored in `kept`, and its memory is reused. REQUIRES:
+  /// `kept` is empty or from this function; threshold >= 0, finite.
   virtual const ScatteredErrors& over(const Patch::Window& window, double threshold,
                                       std::unique_ptr<ScatteredErrors>& kept) const = 0;
 

@@ -13,7 +13,7 @@ namespace {
 
 using Id = Patch::Id;
 
-/// If all are locked, the patch may exceed the range of the arithmetic (cut.h).
+/// If all vertices are locked, the patch may exceed the range of the arithmetic (cut.h).
 bool has_free_vertex(const Patch& patch) {
   for (Id v = 0; v < patch.node_count(); ++v) {
     if (!patch.is_locked(v)) return true;

@@ -3,10 +3,11 @@
 // As in removal (removal.h), the cheapest vertex is removed first (removal_queue.h), but with the slack of repair and
 // with Σ t⁸, which emphasises errors near the bound. A successful repair makes the prices of all corners of changed
 // triangles stale. First, one sweep of flips and steps over the whole patch, within the bound itself, moves vertices
-// and edges to places good for removal. Without the sweep, a first round would miss vertices that a second one removes.
+// and edges to places that are good for removal. Without the sweep, a first round would miss vertices that a second one
+// removes.
 //
 // On Fuji and Crater Lake at 2 to 0.5 % of the relief, 2 to 4 % more triangles remain without the sweep, and 2 to 5 %
-// more after one round than after two; a third removes 1 to 2 % more.
+// more after one round than after two; a third round removes 1 to 2 % more.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ struct RepairOptions {
   MoveRules rules = {};
   std::uint32_t shake = 0;                    ///< unless 0, vertices are shaken first; seed of the random moves
   int polishes = 0;                           ///< final sweeps over all vertices that lower the squared error
-  std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to try first; EMPTY: all
+  std::span<const std::uint8_t> wanted = {};  ///< by node, 1 if it is to be tried first; EMPTY: all nodes
   std::function<bool()> is_time_up = {};      ///< called before each vertex; true ends all but polishing
 };
 
@@ -46,7 +47,7 @@ class Schedule {
  public:
   Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power power, const RepairOptions& options);
 
-  /// Computes errors and energies of all triangles by the power. Call it before the others.
+  /// Computes errors and energies of all triangles by the power. Call it before the other functions.
   void measure_all();
   /// Tries to flip each edge once, then one step of each vertex, within the bound itself. Skips vertices around which
   /// nothing has changed since a step failed.
@@ -75,7 +76,6 @@ class Schedule {
   RepairCounts counts_;
 };
 
-/// Number of triangles of the patch.
 std::size_t count_faces(const Patch& patch);
 
 }  // namespace scarp

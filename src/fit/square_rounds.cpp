@@ -15,14 +15,14 @@ namespace {
 
 /// Share of the triangles that the first exchange removes, and the share below which exchanges end.
 constexpr double kFirstExchange = 0.1, kLastExchange = 0.004;
-/// Factor of the share from the third exchange on; after a failed exchange kFailed instead.
+/// Factor of the share from the third exchange on; after a failed exchange, the factor is kFailed.
 constexpr double kSmaller = 0.8, kFailed = 0.5;
 /// Factor to which Σ e² must fall for an exchange to be accepted.
 constexpr double kWorthExchange = 0.9995;
 /// Triangles relative to the wanted number after each round that reduces a mesh in patches.
 constexpr double kReductions[] = {1.6, 1.15, 1};
 constexpr int kSweepsAfterReduction = 3, kSweepsAfterExchange = 2, kLastSweeps = 6;
-/// Most rounds that follow until the mesh is within the budget.
+/// The most correction rounds that follow until the mesh is within the budget.
 constexpr int kCorrections = 4;
 
 double energy_of(const Patch& patch) {
@@ -228,7 +228,7 @@ class SquareRounds {
 
   std::int32_t longest() const { return std::max(raster_.cols, raster_.rows); }
 
-  /// Side of squares of some kPatchTriangles of the budget; on a narrow raster, length of pieces.
+  /// Side of squares with some kPatchTriangles triangles of the budget; on a narrow raster, length of pieces.
   std::int32_t side() const {
     const std::uint64_t wanted = wanted_triangles(rounds_.tin().triangle_count());
     const std::int32_t most = options_.most_side > 0 ? std::min(options_.most_side, longest()) : longest();

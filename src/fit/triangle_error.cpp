@@ -116,7 +116,6 @@ struct TriangleError::ByBounds {
 
 namespace {
 
-/// A triangle for exact arithmetic.
 struct ExactTriangle {
   std::array<Point, 3> corners;
   std::array<float, 3> heights;

@@ -1,13 +1,13 @@
 // Errors of the samples of one trial triangle: the innermost loop of fitting.
 //
-// Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and returns that
-// sample: it is likely to break other triangles over the same place. The arithmetic is that of the scan kernels
-// (geom/scan_kernels.h) on a lattice of 256ths of a sample, summed in eight lanes on every machine. Errors within the
-// guard of the threshold are decided exactly.
+// Most trial triangles break the bound, so the scan ends at the first row with a sample beyond the bound, and returns
+// that sample, which is likely to exclude other triangles over the same place. The arithmetic is that of the scan
+// kernels (geom/scan_kernels.h) on a lattice with steps of 1/256 of a sample, summed in eight lanes on every machine.
+// Errors within the guard of the threshold are decided exactly.
 //
-// Samples may have their own bounds instead of the threshold. Then errors count in bounds, the threshold is 1, and a
-// sample with a smaller bound pulls a vertex more strongly. A bound within rounding, such as 0, must be satisfied but
-// has no energy, which would be noise.
+// Samples may have their own bounds instead of the threshold. Then errors are divided by their bounds, the threshold is
+// 1, and a sample with a smaller bound pulls a vertex more strongly. A bound within rounding, such as 0, must be
+// satisfied but has no energy, since that would be noise.
 //
 // If channels count too, errors are norms over several fields (norm_error.h), computed like those with bounds.
 #pragma once
@@ -25,7 +25,6 @@
 
 namespace scarp {
 
-/// A corner of a trial triangle.
 struct FitCorner {
   std::int32_t x = 0, y = 0;  ///< in lattice steps from the first sample of the window, 0 … kMaxFitSteps
   float z = 0;                ///< at most kMaxScanHeight in magnitude
@@ -39,8 +38,8 @@ inline std::int64_t area2(const FitCorner& a, const FitCorner& b, const FitCorne
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
 }
 
-/// Longest side of a window. Up to here, crossings of edges with rows are rational numbers farther apart than the
-/// rounding of double (triangle_error.cpp).
+/// Longest side of a window. Up to this length, crossings of edges with rows are rational numbers that are farther
+/// apart than the rounding of doubles (triangle_error.cpp).
 inline constexpr std::int32_t kMaxFitSteps = 1 << 24;
 
 /// The limits of errors, and their energy.
@@ -60,14 +59,14 @@ class ScatteredErrors;
 /// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
 struct SampleBounds {
   const float* bounds = nullptr;
-  double unit = 1;  ///< above 0; for good heights, bounds are some 2⁻¹⁵ … 2¹⁵ of it
+  double unit = 1;  ///< above 0; heights are good if bounds are some 2⁻¹⁵ … 2¹⁵ of this unit
 };
 
 class TriangleError {
  public:
   /// Errors of the raster's samples. `first`: origin from which corners are counted. REQUIRES: threshold >= 0, finite.
   TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
-  /// The same with bounds, which must outlive this object. Errors count in bounds, so the threshold is 1.
+  /// The same with bounds, which must outlive this object. Errors are divided by their bounds, so the threshold is 1.
   TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
   /// Norms over several fields, which must outlive this object. Corners are samples.
   explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
@@ -83,8 +82,8 @@ class TriangleError {
       kCostly,  ///< the energy reaches its limit
     };
     Kind kind = Kind::kKeeps;
-    float worst = 0;   ///< kKeeps: the largest computed error, adjusted to be at most the threshold exactly if every
-                       ///< sample is within it in exact arithmetic
+    float worst = 0;   ///< kKeeps: the largest computed error, adjusted to be at most the threshold if and only if
+                       ///< every sample is within the threshold in exact arithmetic
     float energy = 0;  ///< kKeeps: Σ (error / threshold)^p over the samples of the closed triangle; 0 if the threshold
                        ///< is not within 2⁻⁶⁰ … 2⁶⁰. With bounds: Σ (error / bound)^p over the samples with bounds
                        ///< above 2⁻⁶⁰ and above the rounding of errors in the triangle
@@ -100,7 +99,7 @@ class TriangleError {
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
     double slope_x = 0, slope_y = 0;  ///< slopes of the plane, in unit() per sample
   };
-  /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as assess().
+  /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as for assess().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
 
   /// The same for each field, scaled; one pull for heights only.
@@ -109,7 +108,7 @@ class TriangleError {
   /// The coefficients of the energy Σ tᵖ when corner a rises by d units: Σ over k of C(p, k)·moments[k]·dᵏ, moments[k]
   /// = Σ tᵖ⁻ᵏ λᵏ, k <= p.
   using Moments = std::array<double, 9>;
-  /// Adds the moments of a triangle. REQUIRES, cost: as pull().
+  /// Adds the moments of a triangle. REQUIRES, cost: as for pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
 
   /// Rises of corner a, in units, at which samples are within the threshold, up to rounding.
@@ -119,7 +118,7 @@ class TriangleError {
     bool is_open() const { return lowest < highest; }
   };
   /// Narrows the room to the rises that a triangle's samples allow; ignores samples at which the corner has almost no
-  /// weight. REQUIRES, cost: as pull().
+  /// weight. REQUIRES, cost: as for pull().
   void narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const;
 
   double threshold() const { return threshold_; }  ///< unit of Verdict::worst; 1 with bounds
@@ -153,9 +152,8 @@ class TriangleError {
 
   /// Number of fields whose errors count; 1 for heights only.
   std::size_t field_count() const;
-  /// The norm that combines their errors.
   Norm norm() const;
-  /// Scaled value of a field at a sample, so that errors compare with limit_at().
+  /// Scaled value of a field at a sample, so that errors can be compared with limit_at().
   double value_at(std::size_t field, Point sample) const {
     return norm_ == nullptr ? double{height_at(sample)} : norm_value_at(field, sample);
   }
@@ -198,8 +196,8 @@ class TriangleError {
   double threshold_, limit_, unit_;
   ErrorRule::Power power_;
   float per_threshold_, per_square_;  // 0 if squares exceed the range of float32
-  const float* end_;                  // end of the samples
-  const TriangleKernels* kernels_;    // kernels of one threshold
+  const float* end_;
+  const TriangleKernels* kernels_;  // kernels of one threshold
   const NormError* norm_ = nullptr;
   const ScatteredErrors* points_ = nullptr;
 };

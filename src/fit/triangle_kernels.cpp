@@ -43,7 +43,7 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls sums.add(t, λ) for each four samples; both are 0 where masked.
+/// Calls sums.add(t, λ) for every four samples; both are 0 where masked.
 template <class Sums>
 Sums ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, Sums sums) {
   TriangleScan scan(task, rows.end);

@@ -1,9 +1,9 @@
 // The scan of a trial triangle against one threshold, in vectors: the inner loops of triangle_error.h.
 //
 // One source is compiled for every instruction set, like the engine's scan (geom/scan_kernels.h); the best one for the
-// machine is chosen at run time. All of them, and the version in vectors of four, return the same bits. An error is the
-// same sequence of separately rounded operations everywhere. Sums have the same number of parts for any vector width,
-// and the parts are added in the same order.
+// machine is chosen at run time. All of them, and the version in vectors of four, return the same bits. An error
+// results from the same sequence of separately rounded operations everywhere. Sums have the same number of parts for
+// any vector width, and the parts are added in the same order.
 #pragma once
 
 #include <array>
@@ -17,14 +17,13 @@ namespace scarp {
 
 struct TriangleTask;
 
-/// Samples from the first of the window to `end`, excluded.
+/// Samples from the first of the window to `end`, which is excluded.
 struct SampleRows {
   const float* first;
   std::ptrdiff_t stride;
   const float* end;
 };
 
-/// The limits of a triangle.
 struct ErrorLimits {
   float cut;         ///< an error above it breaks the limit
   float energy;      ///< a triangle is costly from this value on
@@ -51,7 +50,7 @@ struct TriangleKernels {
   const char* name;  ///< name as in ScanKernels
   using Assess = TriangleSums (*)(const TriangleTask& task, const SampleRows& rows, const ErrorLimits& limits);
   using Pull = CornerPull (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight);
-  /// Adds to the moments.
+  /// Adds the moments of a triangle.
   using Moments = void (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
                            TriangleError::Moments& moments);
   /// For squares and for eighth powers, as ErrorRule::Power.

@@ -1,8 +1,8 @@
 // The scan of trial triangles in vectors: this file is compiled once for every instruction set, through Highway.
 //
-// Eight samples are scanned at a time: one vector, or two of four, the second only if it has samples. No lambdas and no
-// functions of the standard library between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for
-// one instruction set and linked for all.
+// Eight samples are scanned at a time: as one vector, or as two vectors of four, the second one only if it has samples.
+// Between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE there must be no lambdas and no standard library functions: they
+// would be compiled for one instruction set and linked for all.
 
 #include <cstddef>
 #include <cstdint>

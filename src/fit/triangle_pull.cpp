@@ -20,7 +20,7 @@ CornerWeight TriangleError::weight_of(const FitCorner& a, const FitCorner& b, co
   return {weight.slope_x, weight.slope_y, per_threshold_};
 }
 
-/// Calls sums.add(t, λ) for each four samples: errors in bounds, and their change per unit rise of the first corner;
+/// Calls sums.add(t, λ) for every four samples: errors in bounds, and their change per unit rise of the first corner;
 /// both are 0 where masked.
 template <class Sums>
 Sums TriangleError::ask_by_bounds(const TriangleTask& task, const CornerWeight& weight, Sums sums) const {

@@ -36,7 +36,7 @@ inline bool any(Masks mask) {
 inline Floats kept(Floats values, Masks meant) {
   return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant);
 }
-/// Magnitudes of four errors; 0 where masked or nodata: NaN is not equal to itself.
+/// Magnitudes of four errors; 0 where masked or nodata, since NaN is not equal to itself.
 inline Floats magnitudes(Floats errors, Masks meant) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
   return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
@@ -100,7 +100,7 @@ struct TriangleTask {
   }
 };
 
-/// Calls row(y, first, last) for each row with samples, top down, until it returns false. True if it never did.
+/// Calls row(y, first, last) for each row with samples, top down, until row() returns false. True if it never did.
 template <class Row>
 bool each_row(const TriangleTask& task, const Row& row) {
   const TriangleTask::Place top = task.top, middle = task.middle, bottom = task.bottom;
@@ -122,7 +122,7 @@ inline constexpr int kRowsPerLook = 4;  ///< rows between checks of the energy
 /// The state of a scan through the rows of a triangle.
 struct TriangleScan {
   const TriangleTask& task;
-  const float* end;  // end of the samples
+  const float* end;
   Floats slope, height;
   int rows = 0;
 

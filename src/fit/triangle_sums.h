@@ -12,7 +12,6 @@
 
 namespace scarp {
 
-/// Sum of the lanes.
 inline float sum_of(Floats low, Floats high) {
   const Floats s = low + high;
   return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
@@ -54,7 +53,7 @@ struct EighthPowers : Largest {
   float energy(float) const { return sum_of(low_sum, high_sum); }
 };
 
-// For each four samples: t, the error in thresholds, and λ, its change per unit rise of the corner.
+// For every four samples: t, the error in thresholds, and λ, its change per unit rise of the corner.
 
 struct SquarePull {
   Floats stiffness{}, push{};

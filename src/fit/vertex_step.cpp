@@ -45,7 +45,7 @@ float terrain_height(const TriangleError& error, const Patch::Window& window, co
   return above * (1 - y) + below * y;
 }
 
-/// The smallest lattice step in the direction of a step that rounds to none.
+/// The smallest lattice step in the direction of a step that rounds to zero.
 Point unit_step(double x, double y) {
   const std::int32_t right = x > 0 ? 1 : -1, down = y > 0 ? 1 : -1;
   constexpr double kDiagonal = 0.4;
@@ -74,7 +74,7 @@ VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::si
   return {slope({p.x - 1, p.y}, {p.x + 1, p.y}), slope({p.x, p.y - 1}, {p.x, p.y + 1})};
 }
 
-/// In samples. A vertex on a side moves along it.
+/// The step in samples. A vertex on a side moves along this side.
 VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) {
   terrain_.clear();
   for (std::size_t k = 0; k < error.field_count(); ++k)
@@ -175,7 +175,7 @@ bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t di
   return take(error, v, offer_at(error, from, place, limit), limit);
 }
 
-/// The target of a step, or the nearest scattered sample if it is on the vertex' side.
+/// The target of a step, or the nearest scattered sample if it is on the vertex's side.
 FitCorner VertexStep::shifted(const TriangleError& error, const FitCorner& from, Point by) const {
   const FitCorner to{from.x + by.x * unit(), from.y + by.y * unit(), 0};
   if (is_free() || !error.has_points()) return to;
@@ -196,7 +196,8 @@ bool VertexStep::fits(const FitCorner& place, const TriangleShape& floor) const 
   return fan().fits(place, rules_.shape, floor);
 }
 
-/// An initial height: adds the rise of the terrain from the vertex or, with scattered samples, of the vertex' triangle.
+/// An initial height: adds the rise of the terrain from the vertex or, with scattered samples, of the vertex's
+/// triangle.
 float VertexStep::guess_height(const TriangleError& error, const FitCorner& from, const FitCorner& place) const {
   if (!error.has_points()) {
     const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);

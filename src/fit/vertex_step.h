@@ -38,14 +38,14 @@ class VertexStep {
 
   /// Moves v if a step lowers the energy of its star and each triangle satisfies the rule of `error` and the rules of
   /// shapes. True if v moved. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan of the
-  /// star, and one for each length tried, most of which end early; two with free heights.
+  /// star, and one for each length tried (two with free heights); most of these end early.
   bool improve(const TriangleError& error, Patch::Id v);
 
   /// The same for the best of eight places around v, at a distance of `reach` times the mean length of its edges. If
   /// vertices are samples, for the first better place. Cost: up to nine scans of the star.
   bool probe(const TriangleError& error, Patch::Id v, double reach);
 
-  /// Moves v to a random near place, given by `dice`, if the energy of its star stays below three times the old one.
+  /// Moves v to a random nearby place, given by `dice`, if the energy of its star stays below three times the old one.
   bool shake(const TriangleError& error, Patch::Id v, std::uint32_t dice);
 
  private:

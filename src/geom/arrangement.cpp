@@ -13,13 +13,13 @@ namespace {
 /// A part of a line in the rectangle.
 struct LinePiece {
   ClippedSegment clipped;
-  std::uint32_t segment;  ///< segment of the line
+  std::uint32_t segment;
 };
 
 /// Successive pieces without a gap.
 struct PieceRun {
   std::uint32_t line;
-  std::size_t begin, end;  ///< range of the pieces
+  std::size_t begin, end;
 };
 
 struct LinePieces {

@@ -3,14 +3,14 @@
 // Crossings of lattice segments are fractions. Rounding them bends the segments, and bent segments may cross again.
 // Snap rounding (Hobby 1999; Guibas and Marimont 1998) solves this. A lattice point is hot if a segment ends there or a
 // crossing is rounded to it. Every segment is routed through all hot points whose unit squares (half open, centred on
-// them) it meets. Then no segments cross, for any input. Here all decisions use integers.
+// them) it meets. Then no segments cross, for any input. All decisions here use integers.
 //
 // This implementation adds two things. First, rigid segments never bend. They run along the axes or the diagonals, so
-// they meet only squares of lattice points on themselves, except that a falling diagonal (x + y constant) touches
-// corners of others. A corner on such a segment is assigned to the square on the segment. Squares remain convex and a
-// partition, which is all that the proof needs. The proof has one gap: a hot point exactly on a bent piece between two
-// such corners splits the piece there. Second, if all crossings are lattice points, nothing is rounded: lines that
-// cross only in vertices are returned unchanged.
+// they meet only the squares of lattice points that lie on them, except that a falling diagonal (x + y constant) also
+// touches corners of other squares. A corner on such a diagonal is assigned to the square on the diagonal. The squares
+// remain convex and a partition, which is all that the proof needs. The proof has one gap: a hot point exactly on a
+// bent piece between two such corners. This point splits the piece. Second, if all crossings are lattice points,
+// nothing is rounded: lines that cross only at vertices are returned unchanged.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct Polylines {
 };
 
 struct Arrangement {
-  /// An edge between two vertices, the lower number first.
+  /// An edge between two vertices, the one with the lower number first.
   struct Edge {
     std::uint32_t a, b;
     bool is_rigid;  ///< part of a rigid segment
@@ -95,18 +95,18 @@ struct Arrangement {
 
 /// Clips lines to [0, width] × [0, height] and arranges them with rigid segments.
 ///
-/// (1) Two edges share at most a common end; a vertex on an edge is its end. (2) Every two successive stops of a chain
-/// are an edge; each edge is part of a line or of a rigid segment. (3) The edges with is_rigid cover exactly the rigid
-/// segments. (4) A line's vertex in the rectangle is a stop at its own place. All other stops, and so all points of a
-/// chain, lie within 1/2 of their segment in each coordinate, or within 1 if the rectangle clips the segment. (5)
-/// Arranging the edges again with the same rigid segments changes nothing. (6) Vertices and edges do not depend on the
-/// order or the direction of lines.
+/// (1) Two edges share at most a common end; a vertex on an edge is an end of this edge. (2) Every two successive stops
+/// of a chain are joined by an edge; each edge is part of a line or of a rigid segment. (3) The edges with is_rigid
+/// cover exactly the rigid segments. (4) A line's vertex in the rectangle is a stop at the vertex's own place. All
+/// other stops, and so all points of a chain, lie within 1/2 of their segment in each coordinate, or within 1 if the
+/// rectangle clips the segment. (5) Arranging the edges again with the same rigid segments changes nothing. (6)
+/// Vertices and edges do not depend on the order or the direction of lines.
 ///
 /// Chains of one vertex are omitted: lines without extent, or lines that touch the rectangle in a point. REQUIRES: 0 <
 /// width, height <= kMaxCoordinate; rigid segments lie in the rectangle, are not points, and run along axes or
 /// diagonals between points of even coordinates. Lines may be arbitrary. Cost: O((n + k) log n) for n segments and k
-/// crossings that are not crowded; two to three seconds for a million segments (bench/speed/speed_lines.cpp). n
-/// segments that overlap on one line cost no more, as do n traversals of one line.
+/// crossings that are not crowded; two to three seconds for a million segments (bench/speed/speed_lines.cpp). Neither n
+/// segments that overlap on one line nor n traversals of one line cost more.
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height);
 
 }  // namespace scarp

@@ -28,7 +28,7 @@ Point point_at(const Segment& s, Ratio at) {
 
 double value(Ratio at) { return static_cast<double>(at.numerator) / static_cast<double>(at.denominator); }
 
-/// Narrows [begin, end] to where from + span · t lies in [0, most]. False if empty.
+/// Narrows [begin, end] to the t for which from + span · t lies in [0, most]. Returns false if there are none.
 bool narrow(std::int64_t from, std::int64_t span, std::int64_t most, Ratio& begin, Ratio& end) {
   if (span == 0) return from >= 0 && from <= most;
   const Ratio enter = span > 0 ? Ratio{-from, span} : Ratio{from - most, -span};

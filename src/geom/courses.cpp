@@ -27,7 +27,7 @@ OnLine on_line(Segment s) {
 
 bool same_line(const OnLine& a, const OnLine& b) { return a.direction == b.direction && a.offset == b.offset; }
 
-/// A hash that is equal for segments of one line, and rarely for others.
+/// A hash that is equal for segments of one line, and rarely equal for others.
 std::uint32_t mark_of(const OnLine& line) {
   std::uint64_t bits =
       std::uint64_t{static_cast<std::uint32_t>(line.direction.x)} << 32 | static_cast<std::uint32_t>(line.direction.y);
@@ -36,7 +36,6 @@ std::uint32_t mark_of(const OnLine& line) {
   return static_cast<std::uint32_t>(bits >> 32);
 }
 
-/// Builds the unions.
 class Merger {
  public:
   explicit Merger(std::span<const Segment> segments) : lines_(segments.size()), leaders_(segments.size()) {
@@ -60,7 +59,7 @@ class Merger {
   }
 
  private:
-  /// Unites overlapping segments among those of equal marks.
+  /// Unites overlapping segments among those with equal marks.
   void unite(std::vector<std::uint32_t>& alike) {
     sort_rarely(alike, [this](std::uint32_t i, std::uint32_t j) {
       const OnLine &a = lines_[i], &b = lines_[j];

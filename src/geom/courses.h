@@ -15,7 +15,8 @@ struct Courses {
   std::vector<std::uint32_t> of;  ///< for each segment given: the course that contains it
 };
 
-/// REQUIRES: no segment is a point; coordinates in [0, kMaxCoordinate]. Cost: O(n log n); O(n) where few are collinear.
+/// REQUIRES: no segment is a point; coordinates in [0, kMaxCoordinate]. Cost: O(n log n); O(n) if few segments are
+/// collinear.
 Courses merge_overlaps(std::span<const Segment> segments);
 
 }  // namespace scarp

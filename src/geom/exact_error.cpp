@@ -26,7 +26,7 @@ Dyadic dyadic(double value) {
 int bits(std::int64_t value) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::abs(value)))); }
 
 /// |Σ weights[i]·values[i]| > last weight · last value, where the last pair is the threshold's. All values are scaled
-/// to integers by one power of two. True if that does not fit 128 bits.
+/// to integers by one power of two. Also true if the comparison does not fit 128 bits.
 template <std::size_t N>
 bool sum_exceeds(const std::array<std::int64_t, N>& weights, const std::array<double, N>& values) {
   std::array<Dyadic, N> terms;

@@ -10,10 +10,10 @@ namespace scarp {
 /// True if the plane through the corners differs from `sample` at p by more than `threshold`, as real numbers.
 /// All values are dyadic rationals: scaled to integers, the barycentric sum
 ///   |w0·z0 + w1·z1 + w2·z2 − A·h| > threshold · A,   w0 + w1 + w2 = A = orient(corners)
-/// fits 128 bits for every combination of float32 heights met in practice. Double heights fit on lattices of up to some
-/// 2^30 cells in a triangle. Otherwise (heights of very different magnitudes, huge triangles) the result is the safe
-/// one: true, unless p is a corner. REQUIRES: p in the closed triangle, orient(corners) > 0, threshold >= 0, all values
-/// finite.
+/// fits 128 bits for every combination of float32 heights met in practice. With double heights, the sum fits for
+/// triangles of up to some 2^30 lattice cells. Otherwise (heights of very different magnitudes, huge triangles) the
+/// result is the safe one: true, unless p is a corner. REQUIRES: p in the closed triangle, orient(corners) > 0,
+/// threshold >= 0, all values finite.
 bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<double, 3>& heights, Point p, double sample,
                      double threshold);
 inline bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p,

@@ -110,7 +110,7 @@ class Finder {
   std::size_t next_tidying_ = std::size_t{1} << 20;
 };
 
-/// Calls visit(a, b) for each two indices of overlapping boxes.
+/// Calls visit(a, b) for the indices of each two overlapping boxes.
 template <class Visit>
 void visit_overlaps(const BoxTree& tree, const Visit& visit) {
   constexpr std::size_t kMostGathered = 64;

@@ -1,4 +1,4 @@
-// The hot points of snap rounding, and those on each segment's way; see arrangement.h.
+// The hot points of snap rounding, and the ones that each segment passes; see arrangement.h.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@ namespace scarp {
 
 class HotPoints {
  public:
-  /// `points` are in raster order, without duplicates. With is_exact, a segment passes the points on it; otherwise the
-  /// points whose squares it meets. REQUIRES: the points include the ends of all segments passed to walk().
+  /// `points` are in raster order, without duplicates. With is_exact, a segment passes the points that lie on it;
+  /// otherwise the points whose squares it meets. REQUIRES: the points include the ends of all segments passed to
+  /// walk().
   HotPoints(std::vector<Point> points, std::span<const Segment> rigid, bool is_exact);
 
   const std::vector<Point>& points() const { return points_; }
@@ -42,7 +43,7 @@ class HotPoints {
   bool lies_on_falling_rigid(Point p) const;
 
   struct Falling {
-    std::int32_t sum, first, last;  ///< x + y; x from … to
+    std::int32_t sum, first, last;  ///< sum: x + y; first, last: the range of x
   };
 
   std::vector<Point> points_;

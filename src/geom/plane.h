@@ -19,8 +19,8 @@ struct Plane {
   Point base;                       ///< first corner in raster order
   double height = 0;                ///< at base
   double slope_x = 0, slope_y = 0;  ///< per sample
-  double guard = 0;  ///< bound of the rounding error of height_at(p) − sample, for p in the triangle; 0 if level, where
-                     ///< only the subtraction rounds
+  double guard = 0;  ///< bound of the rounding error of height_at(p) − sample, for p in the triangle; 0 for a level
+                     ///< triangle, in which only the subtraction rounds
 
   /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
   static Plane through_double(std::array<Point, 3> corners, std::array<double, 3> heights) {

@@ -2,7 +2,7 @@
 //
 // Polygons are rings of a planar graph. Edges do not cross (arrangement.h), but rings may overlap each other and
 // themselves. Each polygon follows the even-odd rule, so only the edges that it passes an odd number of times count. A
-// sweep over these edges finds the side of each on which the polygon lies. A second sweep, over all edges, sums the
+// sweep over these edges finds on which side of each edge the polygon lies. A second sweep, over all edges, sums the
 // results.
 #pragma once
 
@@ -31,8 +31,8 @@ struct EdgeCover {
   std::int32_t positive = 0, negative = 0;
 };
 
-/// The cover of each of `edges`. REQUIRES: `vertices` in raster order, distinct; `edges` sorted, distinct, and
-/// including those of polygons; two edges share at most a common end. Cost: O(n log n).
+/// The cover of each of `edges`. REQUIRES: distinct `vertices` in raster order; sorted, distinct `edges`, which include
+/// those of polygons; two edges share at most a common end. Cost: O(n log n).
 std::vector<EdgeCover> cover_edges(std::span<const Point> vertices, std::span<const GraphEdge> edges,
                                    std::vector<PolygonEdge> passes);
 

@@ -27,8 +27,8 @@ struct Crossing {
 
 }  // namespace detail
 
-/// Calls row(y, first, last), top down, for every row of samples of which the closed triangle contains first … last.
-/// Corners are in units of 1/steps sample. REQUIRES: orient(corners) != 0. Cost: O(rows) plus the calls.
+/// Calls row(y, first, last), from the top down, for every row in which the closed triangle contains samples: first …
+/// last. Corners are in units of 1/steps sample. REQUIRES: orient(corners) != 0. Cost: O(rows) plus the calls.
 template <class Row>
 void scan_samples(std::array<Point, 3> corners, std::int32_t steps, Row&& row) {
   if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);

@@ -18,7 +18,7 @@ namespace detail {
 
 constexpr std::int32_t kRowsWorthSkipping = 32;  // a division costs as much time as this many rows
 
-/// x of an edge on consecutive rows, as floor(x) and a flag for integers.
+/// x of an edge on consecutive rows, as floor(x) and a flag for integer x.
 class EdgeWalker {
  public:
   /// REQUIRES: from.y < to.y.
@@ -64,8 +64,8 @@ class EdgeWalker {
 
 }  // namespace detail
 
-/// Calls row(y, first, last), in ascending y, for every row of the closed triangle that contains lattice points first …
-/// last (inclusive). REQUIRES: orient(corners) != 0. Cost: O(min(rows, columns + calls)).
+/// Calls row(y, first, last), in ascending y, for every row in which the closed triangle contains lattice points: first
+/// … last (inclusive). REQUIRES: orient(corners) != 0. Cost: O(min(rows, columns + calls)).
 template <class Row>
 void scan_rows(std::array<Point, 3> corners, Row&& row) {
   if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);

@@ -1,12 +1,12 @@
 // Branch and bound over the 8 × 8 blocks. Compiled once for every instruction set (scan_kernels_vector.cpp).
 //
-// Bounds of the computed distance of a block's samples from the plane. f is the computed plane at the block's centre,
-// and M = |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box. A sample's exact distance (with the float32
-// slopes) is at most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed error is at most
-// B(1 + 2u) + 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So with margins of 2⁻²⁰M
-// on the bound and 2⁻²⁰ on its limit, no relevant sample is dropped; 2⁻¹⁴⁰ covers subnormal numbers.
+// Bounds of the computed distance of a block's samples from the plane. f is the computed height of the plane at the
+// block's centre, and M = |slope_x|·(width + 8) + |slope_y|·(height + 8) of the box. A sample's exact distance (with
+// the float32 slopes) is at most B = max(high − za − f, f − (low − za)) + 3.5(|slope_x| + |slope_y|). Its computed
+// error is at most B(1 + 2u) + 3uM + …, u = 2⁻²⁴, and the bound loses at most 3uB and 6uM to its own roundings. So with
+// margins of 2⁻²⁰M on the bound and 2⁻²⁰ on its limit, no relevant sample is dropped; 2⁻¹⁴⁰ covers subnormal numbers.
 
-// An include guard like Highway's: included once for every instruction set.
+// An include guard like Highway's: one inclusion per instruction set.
 #if defined(SCARP_SCAN_KERNELS_BLOCKS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BLOCKS
 #undef SCARP_SCAN_KERNELS_BLOCKS
@@ -56,7 +56,7 @@ HWY_INLINE float across_of(const ScanTask& task, std::int32_t row) {
   return task.plane.slope_y * (static_cast<float>(row * kBlock - task.base.y) + 3.5f);
 }
 
-/// The least relevant bound of a block.
+/// A block with a smaller bound cannot contain a better sample.
 HWY_INLINE float limit_of(const ScanBest& best) { return best.error * (1 - 0x1p-20f); }
 
 struct RowBound {
@@ -92,7 +92,7 @@ HWY_NOINLINE void scan_block(const TileView& tile, const ScanTask& task, std::in
   scan_box<8>(tile, task, column * kBlock, row * kBlock, kBlock, kBlock, best);
 }
 
-/// Scans the blocks of a row that can still matter, except the one already scanned. Returns their number.
+/// Scans the blocks of a row that can still matter, except the block already scanned. Returns the number scanned.
 HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t row, const RowBound& bounds,
                                         ScanBest& best) {
   const hn::CappedTag<float, 16> d;

@@ -1,6 +1,6 @@
 // The samples of a triangle in a box. Compiled once for every instruction set (scan_kernels_vector.cpp).
 
-// An include guard like Highway's: included once for every instruction set.
+// An include guard like Highway's: one inclusion per instruction set.
 #if defined(SCARP_SCAN_KERNELS_BOX) == defined(HWY_TARGET_TOGGLE)
 #ifdef SCARP_SCAN_KERNELS_BOX
 #undef SCARP_SCAN_KERNELS_BOX
@@ -24,13 +24,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using detail::ScanBest;
 using detail::ScanTask;
 
-/// The value that a lane's error must exceed to become a candidate: equal errors matter after a hit.
+/// The value that a lane's error must exceed to become a candidate. After a hit, equal errors are candidates too.
 HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
   if (!(best.error > task.floor)) return task.floor;
   return bit_cast<float>(bit_cast<std::uint32_t>(best.error) - 1);
 }
 
-/// The largest error of each lane above `start`, and its position; a lane without one has `start` and any point.
+/// The largest error of each lane above `start`, and its position; a lane without such an error has `start` and any
+/// point.
 template <class D>
 struct Farthest {
   hn::Vec<D> error;
@@ -56,7 +57,7 @@ struct Farthest {
   }
 };
 
-/// One vector of columns from `x`, `rows` rows from `y`; reads up to 3 more rows.
+/// Scans one vector of columns from `x`, in `rows` rows from `y`; reads up to 3 more rows.
 template <class D>
 HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std::int32_t x, std::int32_t y,
                            std::int32_t rows, float start, Farthest<D>& farthest) {
@@ -93,7 +94,7 @@ HWY_INLINE void scan_strip(D d, const TileView& tile, const ScanTask& task, std:
   farthest.merge(d, most, hn::Or(hn::ShiftLeft<16>(row), hn::Add(iota, hn::Set(di, x))));
 }
 
-/// The triangle's samples in `rows` rows from `y` and `width` columns from `x`; reads up to 3 more rows.
+/// Scans the triangle's samples in `rows` rows from `y` and `width` columns from `x`; reads up to 3 more rows.
 template <std::size_t kLanes>
 HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_t x, std::int32_t y, std::int32_t width,
                          std::int32_t rows, ScanBest& best) {
@@ -105,7 +106,7 @@ HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_
   farthest.offer_to(d, start, best);
 }
 
-/// The rows of the box that contain samples of the triangle, in strips of a vector's width: a superset.
+/// For each strip of a vector's width, the rows of the box that can contain samples of the triangle: a superset.
 struct StripRows {
   const ScanTask& task;
   float x_low[3], x_high[3], x[3], y[3], slant[3];  ///< data of the edge from corner i to the next
@@ -121,7 +122,7 @@ struct StripRows {
     }
   }
 
-  /// Rows first … last of one strip per lane, the first starting at column `left`.
+  /// Rows first … last of one strip per lane; the first strip starts at column `left`.
   template <class D>
   HWY_INLINE void of(D d, std::int32_t left, std::int32_t* first, std::int32_t* last) const {
     const hn::RebindToSigned<D> di;

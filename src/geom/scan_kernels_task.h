@@ -11,7 +11,7 @@
 
 namespace scarp::detail {
 
-/// The farthest sample so far; a hit while it is above the floor.
+/// The farthest sample so far; it is a hit if its error is above the floor.
 struct ScanBest {
   float error = 0;
   TilePoint at = 0;
@@ -69,7 +69,6 @@ struct ScanTask {
   }
 };
 
-/// The scalar twin.
 const ScanKernels& scalar_scan_kernels();
 
 /// The vector kernels of this machine, best first.

@@ -1,8 +1,8 @@
 // The scan kernels in vectors, compiled once for every instruction set through Highway.
 //
-// Vectors have at most 16 lanes, so that TileView's padding suffices; any number of lanes is correct. No lambdas and no
-// standard library functions between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for one
-// instruction set and linked for all.
+// Vectors have at most 16 lanes, so that TileView's padding suffices; any number of lanes is correct. Between
+// HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE there must be no lambdas and no standard library functions: they would
+// be compiled for one instruction set and linked for all.
 
 #include <array>
 #include <cstddef>

@@ -17,18 +17,18 @@ inline constexpr float kMaxScanHeight = 0x1p96f;
 /// The plane of a triangle for the kernels; corners[0] is the base.
 struct ScanPlane {
   float slope_x = 0, slope_y = 0, height = 0;  ///< height of the base
-  float guard = 0;  ///< bound of |computed − exact error| at every sample of the closed triangle whose error is at most
-                    ///< twice the given threshold; includes the threshold's own rounding to float32
+  float guard = 0;  ///< bound of |computed − exact error| for each sample in the closed triangle, if the sample's error
+                    ///< is at most twice the given threshold; includes the threshold's own rounding to float32
 
   /// REQUIRES: positive orientation; heights finite, at most kMaxScanHeight in magnitude; threshold >= 0.
   static ScanPlane through(const TileView& tile, const std::array<TilePoint, 3>& corners, double threshold);
 
-  /// Two corners relative to the base, in samples, and their heights above it.
+  /// Two corners relative to the base, in samples, and their heights above the base.
   struct Span {
     double qx, qy, rx, ry;  ///< multiples of 1/8, at most 2¹⁹ in magnitude
     double qz, rz;
   };
-  /// The same for a base at `height`. REQUIRES: base, q and r are counter-clockwise.
+  /// The plane for a base at `height`. REQUIRES: base, q and r are counter-clockwise.
   static ScanPlane spanned(float height, const Span& span, double threshold);
 };
 

@@ -14,22 +14,21 @@ struct Segment {
   Point from, to;
 };
 
-/// The part of a segment in a rectangle.
 struct ClippedSegment {
   Segment segment;
   double begin = 0, end = 1;  ///< ends within the rectangle, as fractions of the whole
 };
 
-/// Clips a segment of any coordinates to [0, width] × [0, height]. Where the segment crosses the border, its end
-/// becomes the border's lattice point nearest to the crossing, for either direction of the segment. False if at most a
-/// point remains.
+/// Clips a segment with any coordinates to [0, width] × [0, height]. Where the segment crosses the border, its end
+/// becomes the border's lattice point nearest to the crossing, whatever the direction of the segment. Returns false if
+/// at most a point remains.
 bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t height, ClippedSegment& clipped);
 
 /// True if x + y is constant along the segment.
 inline bool is_antidiagonal(const Segment& s) { return s.to.x - s.from.x == s.from.y - s.to.y; }
 
-/// Calls visit(a, b), maybe repeatedly, for each two segments that may share a point. REQUIRES: no segment is a point;
-/// coordinates in [0, kMaxCoordinate]. Cost: as find_crossings().
+/// Calls visit(a, b), maybe repeatedly, for each pair of segments that may share a point. REQUIRES: no segment is a
+/// point; coordinates in [0, kMaxCoordinate]. Cost: as for find_crossings().
 void visit_neighbours(std::span<const Segment> segments, FunctionRef<void(std::uint32_t, std::uint32_t)> visit);
 
 struct Crossings {
@@ -38,10 +37,10 @@ struct Crossings {
 };
 
 /// The points where two segments cross, other than their ends, rounded to the nearest lattice point, halves up. A
-/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two of one kind share
-/// more than a point; coordinates in [0, kMaxCoordinate]; `rigid` run along the axes or diagonals between points of
-/// even coordinates. Cost: O((n + k) log n). Segments are divided into pieces of their mean length, and the boxes of k
-/// pairs of pieces meet.
+/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two segments of one
+/// kind share more than a point; coordinates in [0, kMaxCoordinate]; `rigid` segments run along the axes or diagonals
+/// between points of even coordinates. Cost: O((n + k) log n), where k is the number of pairs of pieces with boxes that
+/// meet; segments are divided into pieces of their mean length.
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
 
 }  // namespace scarp

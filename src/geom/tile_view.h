@@ -1,6 +1,6 @@
 // A tile: a copy of a window of the raster, padded so that whole vectors can be read from it. Each point of a tile is
-// one 32-bit number, with the row in the upper bits. Their numerical order is raster order, and a triangle's three
-// corners need 12 bytes. They work for rasters of any extent.
+// one 32-bit number, with the row in the upper bits. The numerical order of points is raster order, and a triangle's
+// three corners need 12 bytes. Such points work for rasters of any extent.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ inline constexpr std::int32_t kMaxTileSide = 4097;
 inline constexpr std::int32_t kBlock = 8;         ///< side of a block of the min/max pyramid, in samples
 inline constexpr std::int32_t kTilePadding = 16;  ///< extra samples to the right of each row, and rows below the last
 
-/// Borrowed samples of one tile with the smallest and largest of each 8 × 8 block.
+/// Borrowed samples of one tile, with the smallest and the largest height of each 8 × 8 block.
 struct TileView {
   const float* samples = nullptr;  ///< row-major; NaN is nodata. `stride` floats per row, at least cols + kTilePadding,
                                    ///< and kTilePadding more rows than `rows`; the padding is readable, with any

@@ -1,4 +1,4 @@
-// The packed EGM96 grid: data/egm96.bin, which the build converts to a source.
+// The packed EGM96 grid: data/egm96.bin, which the build converts to a source file.
 #pragma once
 
 #include <cstddef>

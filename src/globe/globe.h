@@ -45,7 +45,6 @@ class Globe {
 
 /// Octahedral encoding of a unit vector in two bytes.
 std::array<std::uint8_t, 2> encode_octahedral(const Space& normal);
-/// Decodes it to a unit vector.
 Space decode_octahedral(const std::array<std::uint8_t, 2>& normal);
 
 double dot(const Space& a, const Space& b);

@@ -14,7 +14,6 @@ class Ground {
   /// In metres: earth-centred, or on the plane east, north and up from the sample at its centre.
   Space position(double longitude, double latitude, double height) const;
 
-  /// Three unit vectors.
   struct Axes {
     Space east{}, north{}, up{};
   };

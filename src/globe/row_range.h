@@ -1,4 +1,4 @@
-// The points of a straight row inside a box.
+// The points of a straight row that lie inside a box.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Begin and end of the points in the box, among `count` points at equal steps. Because of rounding, points outside by
-/// less than 1/100,000,000 of the box count as inside.
+/// Begin and end of the points in the box, among `count` points at equal steps. Because of rounding, points that are
+/// outside by less than 1/100,000,000 of the box count as inside.
 inline std::pair<std::size_t, std::size_t> range_within(double x, double step_x, double y, double step_y,
                                                         std::size_t count, const DegreeBox& box) {
   double first = 0, last = static_cast<double>(count) - 1;

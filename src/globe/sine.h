@@ -9,8 +9,8 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-/// Sine and cosine of an angle in degrees, |degrees| <= 720; error at most 3 units of the last place of 1. Multiples of
-/// 90 are exact.
+/// Sine and cosine of an angle in degrees, |degrees| <= 720; error at most 3 units of the last place of 1. The results
+/// for multiples of 90 are exact.
 inline SineCosine sine_of_degrees(double degrees) {
   const double quarter = std::floor(degrees / 90 + 0.5);
   const double x = (degrees - 90 * quarter) * 0.017453292519943295, xx = x * x;

@@ -19,7 +19,7 @@ struct Named {
 constexpr Named kGrids[] = {{GridKind::kGeographic, "geographic", "EPSG:4326"},
                             {GridKind::kMercator, "mercator", "EPSG:3857"},
                             {GridKind::kLocal, "local", ""}};
-/// Number of geometric errors per side of a tile of 65 samples: each is a quarter of a sample.
+/// The side of a tile of 65 samples, in geometric errors; each is a quarter of a sample.
 constexpr double kErrorsOfSide = 260;
 
 const Named& named(GridKind kind) {

@@ -8,7 +8,6 @@
 
 namespace scarp {
 
-/// Positions of the vertices on the ground.
 std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Ground& ground);
 
 }  // namespace scarp

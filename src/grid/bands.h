@@ -16,7 +16,7 @@
 
 namespace scarp {
 
-/// Rows that are currently in memory, of samples or of another value per sample. For one thread.
+/// The rows of samples, or of another value per sample, that are currently in memory. For one thread.
 class Band {
  public:
   /// Reads a window, row-major.
@@ -30,7 +30,6 @@ class Band {
   Result<void> load(std::int32_t first, std::int32_t count);
   /// Like load(), but throws SourceFailure.
   void hold(std::int32_t first, std::int32_t count);
-  /// Releases all rows.
   void clear() { count_ = 0; }
 
   /// `count` samples of row y from column x on, valid until the next call. A row that is not held is read for this call
@@ -40,7 +39,6 @@ class Band {
   bool holds(std::int32_t row) const { return row >= first_ && row < first_ + count_; }
   /// REQUIRES: holds(y).
   float* row(std::int32_t y) { return held_.data() + std::ptrdiff_t{y - first_} * cols_; }
-  /// The held rows.
   Raster raster() const { return {held_.data(), cols_, count_}; }
   std::int32_t first() const { return first_; }
   std::int32_t cols() const { return cols_; }
@@ -81,7 +79,7 @@ struct Bands {
   std::size_t count() const { return static_cast<std::size_t>((rows - 1) / side + 1); }
   std::int32_t begin(std::size_t i) const { return static_cast<std::int32_t>(i) * side; }
   std::size_t at(std::int32_t row) const { return static_cast<std::size_t>(row / side); }
-  /// True if the row lies in the band or slightly above it, which saves another sweep.
+  /// True if this band's sweep processes the row: it lies in the band, or slightly above it, which saves another sweep.
   bool reaches(std::size_t i, std::int32_t row) const { return row >= begin(i) - side / 4 && row < begin(i) + side; }
   void hold(std::size_t i, Band& band) const {
     const std::int32_t first = std::max(begin(i) - side / 2, 0);
@@ -107,7 +105,7 @@ Result<void> sweep_rows(const HeightField& field, std::int32_t reach,
 /// Bytes of a range of sweep_rows(); 0 for samples in memory.
 std::uint64_t sweep_bytes(const HeightField& field, std::int32_t reach);
 
-/// Returns rows one by one, from the top down. Reads each row once, in groups.
+/// Returns rows one by one, from the top down. Reads each row once, several rows at a time.
 class RowReader {
  public:
   explicit RowReader(const HeightField& field);

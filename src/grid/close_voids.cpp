@@ -1,8 +1,8 @@
 // Closes voids by an outline tolerance.
 //
 // The domain may grow by the tolerance from all sides. So a void that lies entirely within that distance of its outline
-// may become surface, and saves its outline. A single missing sample costs six triangles, and ragged voids are usually
-// surrounded by many tiny voids.
+// may become surface, which removes its outline. A single missing sample would cost six triangles, and ragged voids are
+// usually surrounded by many tiny voids.
 //
 // Every point of a void is near its outline if each quarter of its cells lies within the tolerance of one edge. A
 // square's farthest point from an edge is a corner, so corners suffice. The test fails needlessly only if a quarter
@@ -85,7 +85,7 @@ class Void {
     std::sort(crossings_.begin(), crossings_.end());
   }
 
-  /// Tests the quarter's corner that is a sample, unless it is on the outline.
+  /// True if the sample at the quarter's corner is a height and is not on the outline.
   bool holds_a_height(Point quarter) const {
     const auto nearest = [](std::int32_t at) { return (at + kQuarter + kHalf) / kSteps; };
     const Point sample{nearest(quarter.x), nearest(quarter.y)}, p{sample.x * kSteps, sample.y * kSteps};

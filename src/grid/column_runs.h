@@ -18,7 +18,7 @@ class ColumnRuns {
   };
 
   /// `runs`: in raster order, disjoint, in a raster of `cols` columns. Cost: O(columns + runs + resulting runs). Both
-  /// numbers of runs are proportional to the set's outline.
+  /// numbers of runs are proportional to the length of the set's outline.
   ColumnRuns(std::span<const SampleRun> runs, std::int32_t cols);
 
   /// The disjoint runs of a column, from the top down.
@@ -30,7 +30,7 @@ class ColumnRuns {
 
  private:
   std::vector<Run> runs_;
-  std::vector<std::size_t> begins_;  // begin of each column's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // start of each column's runs, and end of the last column's
 };
 
 /// Walks down a column of a set, row by row.
@@ -39,8 +39,8 @@ class ColumnWalk {
   /// The walk begins at `row`.
   ColumnWalk(std::span<const ColumnRuns::Run> column, std::int32_t row);
 
-  /// Steps from `row` to the column's nearest sample of the set; −1: none. REQUIRES: `row` never decreases between
-  /// calls.
+  /// Number of steps from `row` to the column's nearest sample in the set; −1 if there is none. REQUIRES: `row` never
+  /// decreases between calls.
   std::int32_t steps_from(std::int32_t row) {
     while (next_ != end_ && next_->end <= row) ++next_;
     const std::int32_t below = next_ == end_ ? -1 : next_->begin > row ? next_->begin - row : 0;

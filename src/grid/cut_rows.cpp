@@ -39,7 +39,7 @@ void visit_cells(Point p, Point q, std::int32_t cols, std::int32_t rows, const V
 CutRows::CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t cols, std::int32_t rows)
     : cols_(cols), rows_(rows), within_({}, rows), on_({}, rows), cells_({}, rows) {
   SampleRuns cells, on, within;
-  std::vector<Point> turns;  // the first samples behind the outline
+  std::vector<Point> turns;  // the first samples to the right of the outline
   const auto add_point = [&](Point p) {
     const std::int32_t col = p.x / kLatticeSteps;
     if (p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0) on.add({p.y / kLatticeSteps, col, col + 1});
@@ -55,7 +55,7 @@ CutRows::CutRows(std::span<const std::array<Point, 2>> outline, std::int32_t col
       continue;
     }
     const std::int64_t dx = q.x - p.x, dy = q.y - p.y, step = kLatticeSteps * dy;
-    // Half open, so that a vertex on a row counts once.
+    // The interval is half open, so that a vertex on a row counts once.
     for (std::int32_t row = (p.y + kLatticeSteps - 1) / kLatticeSteps; row * kLatticeSteps < q.y; ++row) {
       const std::int64_t along = p.x * dy + (std::int64_t{row} * kLatticeSteps - p.y) * dx;
       const auto left = static_cast<std::int32_t>(floor_divide(along, step));
@@ -81,7 +81,7 @@ CutSide CutRows::side(Point sample) const {
   return on_.has(sample) ? CutSide::kOnWall : within_.has(sample) ? CutSide::kWithin : CutSide::kBeyond;
 }
 
-/// Adds the cells with a sample of this row that is not beyond the cut.
+/// Adds the cells with a sample of this row on or within the cut.
 void CutRows::add_held(std::int32_t row, SampleRuns& cells) const {
   for (const SampleSet* samples : {&within_, &on_}) {
     for (const auto& [y, begin, end] : samples->row(row)) {
@@ -91,7 +91,7 @@ void CutRows::add_held(std::int32_t row, SampleRuns& cells) const {
   }
 }
 
-/// The cells of a row that contain or touch the cut surface, as row number 0.
+/// The cells of a row that contain or touch the cut surface. The returned runs have row number 0.
 SampleRuns CutRows::near_cells(std::int32_t row) const {
   SampleRuns cells;
   for (const auto& [y, begin, end] : cells_.row(row)) cells.add({0, begin, end});

@@ -39,7 +39,7 @@ class Buckets {
     for (std::uint32_t i = 0; i < points.size(); ++i) members_[next[bucket_of(i)]++] = i;
   }
 
-  /// True if the point differs by more than `most` from all but kAllowed of its nearest neighbours.
+  /// True if the point's height differs by more than `most` from those of all but kAllowed of its nearest neighbours.
   bool is_spike(std::uint32_t point, double most) const {
     struct Neighbour {
       double square;
@@ -53,7 +53,7 @@ class Buckets {
     const double x = points_.x[point], y = points_.y[point];
     const std::int64_t col = col_of(x), row = row_of(y), farthest = std::max(cols_, rows_);
     for (std::int64_t ring = 0; ring <= farthest; ++ring) {
-      // All points within (ring - 1) sides were seen.
+      // All points within (ring - 1) bucket sides were seen.
       const double seen = static_cast<double>(ring - 1) * side_;
       if (found == kNeighbours && ring > 0 && nearest.back().square <= seen * seen) break;
       for (std::int64_t r = std::max<std::int64_t>(row - ring, 0); r <= std::min(row + ring, rows_ - 1); ++r) {

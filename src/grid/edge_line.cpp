@@ -41,7 +41,7 @@ class EdgeLine {
 
   double bound(std::size_t i) const { return kShare * (tolerances_.empty() ? tolerance_ : tolerances_[i]); }
 
-  /// Adds samples by the number of segments from `first` on, each for the lowest segment that reaches it.
+  /// Adds the vertices of a line with the fewest segments from `first` to `last`, found by breadth-first search.
   void add_run(std::size_t first, std::size_t last) {
     level_.assign(1, static_cast<std::int32_t>(first));
     while (last != first && before_[last] == kUnseen) {
@@ -62,7 +62,8 @@ class EdgeLine {
     std::reverse(vertices_.begin() + begin, vertices_.end());
   }
 
-  /// The slopes of segments from `i` that pass all samples so far within their bounds form an interval.
+  /// Finds the samples that a segment from `i` reaches. The slopes that pass all previous samples within their bounds
+  /// form an interval.
   void look_from(std::size_t i, std::size_t last) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     const double from = heights_[i];
@@ -74,7 +75,7 @@ class EdgeLine {
     }
   }
 
-  /// No norm is smaller than one of its errors: each field alone bounds the slopes.
+  /// The norm is at least each field's error, so each field alone bounds the slopes.
   void look_from_norm(std::size_t i, std::size_t last) {
     struct Slopes {
       double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -116,7 +117,7 @@ class EdgeLine {
   double tolerance_;
   std::span<const double> tolerances_;
   std::vector<std::int32_t> before_;
-  std::vector<std::int32_t> level_, next_;  ///< samples that a number of segments reaches, and one segment more
+  std::vector<std::int32_t> level_, next_;  ///< samples reached by n segments, and by n + 1
   std::vector<std::int32_t> vertices_;
 };
 

@@ -10,7 +10,6 @@ namespace scarp {
 
 namespace {
 
-/// The quartiles of some values.
 struct Quartiles {
   double lower = 0, upper = 0;
 

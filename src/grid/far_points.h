@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// "the point at (0, 0) lies far from all others, which span 20: remove it if it is an error", for an
-/// error about points too far apart. Empty unless at most three points, or 1 %, make the extent ten times that of the
+/// For an error message about points too far apart: "the point at (0, 0) lies far from all others, which span 20:
+/// remove it if it is an error". Empty unless a few points, at most three or 1 %, make the extent ten times that of the
 /// others. REQUIRES: finite coordinates. Cost: O(n).
 std::string describe_far_points(const PointSet& points);
 

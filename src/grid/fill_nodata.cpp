@@ -5,10 +5,10 @@
 //
 // Idea: search only along the eight compass directions. A sample's nearest valid sample to the north-west is its
 // north-western neighbour if valid, and otherwise that neighbour's result. So one sweep down the rows finds W, N, NW
-// and NE, and one sweep up E, S, SW and SE. Each nodata sample accumulates Σ w and Σ w·(z − reference), w = 1 /
-// distance², in two passes over the raster. The reference is the first height found, so a flat surround gives exactly
-// its height. Σ w is a float, for memory; Σ w·(z − reference) may exceed float's range. Heights are written at the end,
-// so filled samples do not affect each other.
+// and NE, and one sweep up finds E, S, SW and SE. Each nodata sample accumulates Σ w and Σ w·(z − reference), with w =
+// 1 / distance², in two passes over the raster. The reference is the first height found, so a flat surround gives
+// exactly its height. Σ w is a float, to save memory; Σ w·(z − reference) may exceed float's range. Heights are written
+// at the end, so filled samples do not affect each other.
 //
 // Sources: sweeps as in distance transforms (Rosenfeld & Pfaltz 1966); weights of Shepard (1968).
 #include <algorithm>
@@ -45,7 +45,7 @@ class Sweeper {
   void sweep(int step) {
     const int cols = field_.cols, rows = field_.rows;
     const std::size_t width = static_cast<std::size_t>(cols);
-    // Results of the previous row and this one: straight, left, right. The border has extra columns.
+    // Results of the previous row and of this one: straight, left, right. Each border has an extra column.
     std::vector<Seen> straight(width + 2), left(width + 2), right(width + 2);
     std::vector<Seen> next_straight(width + 2), next_left(width + 2), next_right(width + 2);
     std::size_t slot = step > 0 ? 0 : gathered_.size();

@@ -118,7 +118,7 @@ std::vector<std::array<double, 2>> sample_wave(double step, double phase, int co
   return wave;
 }
 
-/// Wave vectors are uniform in the disc of kMostPeriods over the longer side.
+/// Wave vectors are uniformly distributed in the disc of at most kMostPeriods periods over the longer side.
 std::vector<PlaneWave> draw_waves(std::uint64_t seed, int cols, int rows) {
   constexpr int kWaves = 64;
   constexpr double kMostPeriods = 8;
@@ -156,7 +156,7 @@ void fill(OwnedHeightField& field, const Height& height) {
   }
 }
 
-/// A step along x (`diagonal`: along x + y) of nx / parts samples.
+/// A step along x (`diagonal`: along x + y), nx / parts samples wide.
 void fill_step(OwnedHeightField& field, bool diagonal, double parts) {
   const int nx = field.cols, centre = diagonal ? nx : nx / 2, reach = diagonal ? nx + field.rows - 1 : nx;
   std::vector<float> profile;

@@ -1,4 +1,4 @@
-// Synthetic height fields for tests, demonstrations and documents: those of the paper's program genstm, and more.
+// Synthetic height fields for tests, demonstrations and documents: those of Scape's program genstm, and more.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum class FieldStyle {
   kScaledParaboloid,   ///< P: the paraboloid over the full 15-bit range, · 4 · 32767 / (nx² + ny²)
   kPyramid,            ///< o: an inverted pyramid with its edges along the axes, |x − nx/3| + |y − ny/4|
   kDiagonalPyramid,    ///< r: the same with edges along the diagonals, 2 max(|x − nx/3|, |y − ny/4|)
-  kFractal,            ///< seeded noise, octaves halving in scale and height; 0 … 1000, not integers
+  kFractal,            ///< seeded noise in octaves of decreasing scale and height; 0 … 1000, not integers
   kSmooth,  ///< 64 plane waves of at least an eighth of the longer side, with seeded directions, lengths and phases: a
             ///< band-limited, nearly Gaussian surface; 0 … 1000, not integers
 };

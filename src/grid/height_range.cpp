@@ -30,7 +30,7 @@ void add_to(Ends& ends, double sign, const HeightCount& more) {
   }
 }
 
-/// True if all of `low` … `high` lies strictly within the known ends.
+/// True if the interval `low` … `high` lies strictly between the known ends.
 bool is_between_ends(const HeightRange& range, double low, double high) {
   const HeightCount &last_low = range.lowest.back(), &last_high = range.highest.back();
   return last_low.samples > 0 && last_high.samples > 0 && low > last_low.height && high < last_high.height;
@@ -137,7 +137,7 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
     if (extents[k].valid > 0 && !is_between_ends(range, extents[k].least, extents[k].most))
       note_ends(range, block_at(k), none);
   };
-  // The blocks with both ends are first, so that most other samples need no scan.
+  // The blocks with the lowest and the highest sample are scanned first, so that most others need no scan.
   look(lowest);
   if (highest != lowest) look(highest);
   for (std::size_t k = 0; k < extents.size(); ++k) {

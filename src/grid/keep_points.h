@@ -1,4 +1,4 @@
-// Omitting points of a set.
+// Omits points of a set.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Keeps the points for which stays(number) is true, in their order, and adapts the lines. Returns, by old number, the
-/// new number of each point that stays. REQUIRES: all points of lines stay, and there is no boundary.
+/// Keeps the points for which stays(number) is true, in their order, and adapts the lines. Returns the new number of
+/// each remaining point, indexed by its old number. REQUIRES: all points of lines stay, and there is no boundary.
 std::vector<std::uint32_t> keep_points(PointSet& points, FunctionRef<bool(std::size_t)> stays);
 
 /// True if all x and y are finite.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostCrossings = std::size_t{1} << 20;
 
-/// Narrows [begin, end] to the t for which from + t · span is in [−1/2, size − 1/2]. False if empty.
+/// Narrows [begin, end] to the values of t for which from + t · span is in [−1/2, size − 1/2]. False if empty.
 bool narrow(double from, double span, int size, double& begin, double& end) {
   const double least = -0.5, most = size - 0.5;
   if (span == 0) return from >= least && from <= most;
@@ -61,7 +61,7 @@ void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
       }
       SamplePosition p = position_of(ring->points[k]), q = position_of(ring->points[k + 1]);
       if (p.row > q.row) std::swap(p, q);
-      // Half open, so that a vertex on a row counts once.
+      // The interval is half open, so that a vertex on a row counts once.
       const double first = std::max(std::ceil(p.row), double{1} * begin),
                    last = std::min(std::ceil(q.row), double{1} * end);
       for (double row = first; row < last; ++row) {

@@ -11,16 +11,16 @@
 
 namespace scarp {
 
-/// Lines as runs: memory grows with the length of the lines.
+/// Marks samples as runs. Memory grows with the length of the lines.
 class LineRuns {
  public:
-  /// Marks nothing. `affine`: from samples to the coordinates of the lines.
+  /// Initially marks nothing. `affine`: maps samples to the coordinates of the lines.
   LineRuns(const std::array<double, 6>& affine, int cols, int rows) : to_samples_(affine), cols_(cols), rows_(rows) {}
 
-  /// Marks the samples nearest to points along a line, which are at most a quarter of a sample apart. `reach`: the
-  /// largest distance of a marked sample from the line, in samples.
+  /// Marks the samples nearest to points along a line. These points are at most a quarter of a sample apart. `reach`:
+  /// the largest distance of a marked sample from the line, in samples.
   void add_course(const Line& line, double reach = 1);
-  /// Marks the samples inside polygons, by the even-odd rule for each one's rings. Open lines contain nothing.
+  /// Marks the samples inside polygons, by the even-odd rule for the rings of each polygon. Open lines contain nothing.
   void add_polygons(std::span<const Line> lines);
 
   /// All samples marked so far, in raster order, as disjoint runs.

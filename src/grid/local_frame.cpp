@@ -30,8 +30,8 @@ namespace {
 
 constexpr double kLargestInteger = 0x1p24;  // every integer up to here is a float32
 
-/// Rounds p and q to multiples of a power of two: the smallest for which |p|·reach_p + |q|·reach_q is at most 2^24
-/// times it.
+/// Rounds p and q to multiples of a power of two: the smallest power for which |p|·reach_p + |q|·reach_q is at most
+/// 2^24 times that power.
 void round_pair(double& p, double& q, double reach_p, double reach_q) {
   const double span = std::abs(p) * reach_p + std::abs(q) * reach_q;
   if (span == 0 || !std::isfinite(span)) return;

@@ -26,8 +26,8 @@ MetresPerRadian metres_per_radian(const Ellipsoid& ellipsoid, double latitude);
 constexpr int centre_reach(int size) { return size / 2; }
 
 /// The affine map with the linear part {x per col, x per row, y per col, y per row}, moved so that sample
-/// (cols / 2, rows / 2) is at exactly (0, 0). Its four coefficients are rounded to multiples of a power of two, so
-/// coarse that every sample's x and y are exactly float32. For an axis-aligned map, the rounding changes the cell size
+/// (cols / 2, rows / 2) is at exactly (0, 0). Its four coefficients are rounded to multiples of a power of two, large
+/// enough that every sample's x and y are exactly float32. For an axis-aligned map, the rounding changes the cell size
 /// by less than reach / 2^23 (0.03 % for 5,000 samples from the centre to the border).
 std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int cols, int rows);
 
@@ -35,16 +35,17 @@ std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int co
 struct MetresPerUnit {
   double east = 0, north = 0;  ///< 0: unknown, or at a pole
 };
-/// The local frame of samples. `samples` maps them to x and y of the CRS named by `crs`; without a CRS their unit is
-/// kept. Fails with kUsage at a pole and for cells too unequal for float32; the message begins with "its".
+/// The local frame of samples. `samples` maps samples to x and y of the CRS named by `crs`. Without a CRS, the unit of
+/// x and y does not change. Fails with kUsage at a pole and for cells too unequal for float32; the message begins with
+/// "its".
 Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
                           const std::string& crs);
 
-/// The local frame of square cells of known width only. Fails with kUsage if the width is not positive or is beyond
-/// float32.
+/// The local frame of square cells if only their width is known. Fails with kUsage if the width is not positive or is
+/// beyond float32.
 Result<Frame> cell_frame(double cell, int cols, int rows);
 
-/// True if the affine map sends samples to a line, or to infinity.
+/// True if the affine map sends all samples to a line, or any to infinity.
 bool is_degenerate(const std::array<double, 6>& affine);
 
 }  // namespace scarp

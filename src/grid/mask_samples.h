@@ -1,4 +1,4 @@
-// Makes samples outside runs nodata.
+// Sets samples outside runs to nodata.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Sets the samples [begin, end) of a row outside all runs to nodata (NaN). `runs`: of that row, ascending, disjoint.
-/// `samples`: starts at `begin`.
+/// Sets the samples [begin, end) of a row to nodata (NaN), except those in runs. `runs`: of that row, ascending,
+/// disjoint. `samples`: starts at `begin`.
 inline void mask_beside(std::span<const SampleRun> runs, std::int32_t begin, std::int32_t end, float* samples) {
   std::int32_t done = begin;
   const auto mask_up_to = [&](std::int32_t to) {

@@ -124,7 +124,7 @@ std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
   FourRows rows(runs);
   for (const auto& [y, begin, end] : runs) {
     rows.go_to(y);
-    // A cell of three samples has one in its upper row.
+    // A cell with three valid samples has at least one in its upper row.
     for (std::int32_t x = begin - 1; x < end; ++x) {
       if (rows.is_inside(x)) continue;
       const unsigned corners = rows.corners(x, 0);
@@ -137,7 +137,7 @@ std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
   return edges;
 }
 
-/// A sort key for the turn from `in` to `out`, for angles above −180° up to +180°; larger is farther left.
+/// A sort key for the turn from `in` to `out`, for angles above −180° up to +180°; larger keys turn farther left.
 double left_turn(Point in, Point out) {
   const int cross = in.x * out.y - in.y * out.x, dot = in.x * out.x + in.y * out.y;
   // Unit steps of a lattice: the eight turns have exact, distinct keys without trigonometry.
@@ -161,8 +161,8 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
           std::lower_bound(edges.begin(), edges.end(), edges[e].to,
                            [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
           edges.begin());
-      // If polygons touch, the sharpest left turn stays in the same wedge of surface. The start remains a candidate
-      // although used, since it closes the polygon.
+      // If polygons touch, the sharpest left turn stays in the same wedge of surface. The start edge remains a
+      // candidate although it is used, since it closes the polygon.
       std::size_t next = edges.size(), end = first;
       for (; end < edges.size() && edges[end].from == edges[e].to; ++end) {
         if (used[end] && end != start) continue;

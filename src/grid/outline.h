@@ -1,7 +1,7 @@
 // The domain: the part of the grid that is surface.
 //
-// A grid cell whose four corner samples are valid is surface; one with three valid corners is surface on the half
-// between them; any other cell is nodata. The outline of the union is a set of closed lattice polygons.
+// A grid cell with four valid corner samples is surface. A cell with three valid corners is surface in the triangle
+// between them. Any other cell is nodata. The outline of the surface is a set of closed lattice polygons.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ namespace scarp {
 
 /// Closed polygons with the domain on their left: outer borders have positive orientation, holes negative. Polygons
 /// never cross. They may touch themselves and each other in single points, which are then vertices of all polygons
-/// there. There are no other collinear points.
+/// there. No other vertex is collinear with its neighbours.
 using Outline = std::vector<std::vector<Point>>;
 
 /// True if every sample is a height. Cost: O(samples).
@@ -35,12 +35,12 @@ inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t
 }
 
 /// Closes (makes surface) the voids that contain no height and lie entirely within `tolerance` samples of their
-/// outline. REQUIRES: an outline as traced. Cost: O(L) for small voids.
+/// outline. REQUIRES: an outline from trace_outline(). Cost: O(L) for small voids.
 Outline close_voids(const Raster& raster, Outline outline, double tolerance);
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
-/// domain only grows, over nodata samples. No valid sample is cut off or newly enclosed, and polygons still do not
-/// cross. Vertices are a subset of the old ones and include those where polygons touch. Cost: O(L · tolerance) on
+/// domain only grows, and only over nodata samples. No valid sample is cut off or newly enclosed, and polygons still do
+/// not cross. Vertices are a subset of the old ones and include those where polygons touch. Cost: O(L · tolerance) on
 /// typical outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
 

@@ -1,4 +1,4 @@
-// The samples of the engine.
+// The engine's samples.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Sets of samples, row by row; their memory depends only on their outline.
+// Sets of samples, stored by rows. The memory of a set depends only on its outline.
 #pragma once
 
 #include <compare>
@@ -29,7 +29,7 @@ class SampleRuns {
 
  private:
   std::vector<SampleRun> runs_;
-  std::size_t merged_ = 0;  // number of runs arranged by merge()
+  std::size_t merged_ = 0;  // number of runs after the last merge()
 };
 
 /// A set of samples for many queries.
@@ -47,7 +47,7 @@ class SampleSet {
 
  private:
   std::vector<SampleRun> runs_;
-  std::vector<std::size_t> begins_;  // begin of each row's runs, and the end of the last
+  std::vector<std::size_t> begins_;  // start of each row's runs, and end of the last row's
 };
 
 }  // namespace scarp

@@ -1,9 +1,10 @@
 // Removes vertices of ragged outlines without losing a sample.
 //
-// A straight segment may replace the chain between two vertices under two conditions. The chain lies on the segment's
-// domain side (left) within the tolerance, so that the domain only grows. The area between chain and segment contains
-// no other height, so that none is newly enclosed. This also prevents crossings: a chain that crossed a segment would
-// have to end in that area, on a sample. The path around a polygon with the fewest segments is used.
+// A straight segment may replace the chain between two vertices under two conditions. First, the chain lies within the
+// tolerance on the left of the segment, the side of the domain, so that the domain only grows. Second, the area between
+// chain and segment contains no other height, so that none is newly enclosed. This also prevents crossings, since a
+// chain that crossed a segment would end in that area, on a sample. The path with the fewest segments around a polygon
+// is used.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -31,7 +32,7 @@ bool hugs_segment(std::span<const Point> chain, double tolerance) {
   return true;
 }
 
-/// True if p is in the closed polygon (crossing number; points on the border are found first).
+/// True if p is in the closed polygon, by the crossing number. Points on the border are found first.
 bool encloses(std::span<const Point> polygon, Point p) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -85,7 +86,7 @@ std::vector<Point> touching_vertices(const Outline& outline) {
   return touching;
 }
 
-/// The polygon, starting and ending at a corner.
+/// The polygon as a path that starts and ends at `corner`.
 std::vector<Point> unrolled(const std::vector<Point>& polygon, Point corner) {
   std::vector<Point> path = polygon;
   std::rotate(path.begin(), std::find(path.begin(), path.end(), corner), path.end());

@@ -1,4 +1,4 @@
-// Fills small voids, also of rasters read window by window.
+// Fills small voids, also in rasters that are read window by window.
 //
 // Problem: a void must have the same heights in every window that cuts it, without reading the whole raster.
 //
@@ -22,7 +22,7 @@ namespace {
 
 /// An 8-connected area of missing samples.
 struct SmallVoid {
-  int left, top, right, bottom;  ///< the last column and row included
+  int left, top, right, bottom;  ///< all inclusive
   std::uint64_t samples = 0;
   bool is_open = false;  ///< touches the border of the scanned part
   float least = std::numeric_limits<float>::infinity(), most = -std::numeric_limits<float>::infinity();  ///< range of
@@ -40,7 +40,7 @@ struct VoidRun {
 
 class VoidFinder {
  public:
-  /// `keep`: store the runs of all rows, not only of the last.
+  /// `keep`: store the runs of all rows, not only of the last row.
   VoidFinder(int cols, bool keep) : cols_(cols), keep_(keep) {}
 
   void add(std::span<const float> row) {
@@ -104,7 +104,7 @@ class VoidFinder {
           std::max(to.bottom, from.bottom), to.samples + from.samples,   to.is_open || from.is_open,
           std::min(to.least, from.least),   std::max(to.most, from.most)};
   }
-  /// Adds a row's heights inside and next to a run to its void.
+  /// Adds to a run's void the heights of `row` above, below or next to the run.
   void see(std::size_t area, std::span<const float> row, int begin, int end) {
     if (row.empty()) return;
     SmallVoid& one = voids_[root(area)];
@@ -202,7 +202,7 @@ class FilledSource final : public SampleSource {
   bool is_in_memory() const override { return field_.source == nullptr || field_.source->is_in_memory(); }
 
  private:
-  /// True if a small void may continue across a border of the window inside the raster.
+  /// True if a small void may continue across a window border that lies inside the raster.
   bool reaches_beyond(VoidFinder& finder, int col, int row, int cols, int rows) const {
     for (const VoidRun& run : finder.runs()) {
       const SmallVoid& one = finder.area(run.area);

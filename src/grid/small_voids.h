@@ -15,9 +15,9 @@ namespace scarp {
 /// floats. Cost: O(samples + bounding boxes of the voids).
 VoidCount fill_small_voids(OwnedHeightField& field, int side);
 
-/// The samples of a field with these voids filled, identical for all windows. A window without missing samples is read
-/// once. A window with a small void across its border is read again with `side` more samples around it. Borrows the
-/// field, except its source if `owner` holds that source.
+/// The samples of a field with these voids filled. A sample is the same in every window. A window without missing
+/// samples is read once. A window with a small void across its border is read again with `side` more samples around it.
+/// Borrows the field; `owner` may own the field's source.
 std::shared_ptr<const SampleSource> without_small_voids(const HeightField& field, int side,
                                                         std::shared_ptr<const SampleSource> owner = nullptr);
 

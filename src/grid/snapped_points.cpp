@@ -35,7 +35,7 @@ struct Decimals {
   int digits = 0;
   double power = 1;  ///< 10^|digits|, which a double holds exactly up to 10^22
 
-  /// Sets the nearest multiple. Returns true if the double nearest to it is the coordinate.
+  /// Sets the nearest multiple. Returns true if the double nearest to this multiple is the coordinate.
   bool read(double value, std::int64_t& multiple) const {
     const double nearest = std::nearbyint(digits >= 0 ? value * power : value / power);
     multiple = static_cast<std::int64_t>(nearest);
@@ -61,7 +61,7 @@ struct Snapped {
   std::vector<Point> at;  ///< by point
 };
 
-/// Nothing if the points do not lie on a lattice of decimals.
+/// Nothing if the points do not lie on a decimal lattice.
 std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent& x, const AxisExtent& y) {
   const auto decimals = finest_decimals(x, y);
   if (!decimals) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent
     if (common == 0 || p.x % common != 0 || p.y % common != 0) common = std::gcd(common, std::gcd(p.x, p.y));
     snapped.at.push_back(p);
   }
-  if (common == 0) common = 1;  // one place
+  if (common == 0) common = 1;  // all points are at one place
   if (common > 1) {
     for (Point& p : snapped.at) p = {p.x / common, p.y / common};
   }
@@ -170,8 +170,8 @@ void sort_by_place(const PointSet& points, std::span<Keyed> among) {
   });
 }
 
-/// Stores the choice at each place in `chosen`, and returns the index of that at the place of `best`. `among`: sorted
-/// by place.
+/// Stores the choice at each place in `chosen`, and returns the index of the choice at the place of `best`. `among`:
+/// sorted by place.
 std::size_t choose_places(const PointSet& points, DuplicatePolicy policy, std::span<const Keyed> among,
                           const Chosen& best, std::vector<Chosen>& chosen) {
   chosen.clear();

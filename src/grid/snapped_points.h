@@ -12,7 +12,7 @@ namespace scarp {
 
 /// The lattice on which points are distinguished: columns count eastwards, rows southwards, as in a raster.
 struct PointLattice {
-  double step = 0;  ///< one column and one row, in units of x and y
+  double step = 0;  ///< size of a column and of a row, in units of x and y
   std::int32_t cols = 0, rows = 0;
   double west = 0, north = 0;  ///< position of column 0 and row 0
 };
@@ -20,12 +20,13 @@ struct PointLattice {
 /// The resolution of the lattice.
 enum class PointSteps {
   kFinest,
-  kFloat32,  ///< so coarse that offsets of its points from the middle are exact float32; all vertices then lie on it
+  kFloat32,  ///< so coarse that its points have exact float32 offsets from the middle; all vertices then lie on it
   kFit,      ///< leaves space between points for vertices moved by fitting
-  kJudge,    ///< any resolution: points are only judged, so none are too near each other
+  kJudge,    ///< any resolution: points are only judged, so no two are too near each other
 };
 
-/// A point that shares another's lattice point at a different place. It has an error, but no own lattice point.
+/// A point that was snapped to the lattice point of a point at another place. It has an error, but no separate lattice
+/// point.
 struct Echo {
   std::uint32_t point = 0;   ///< index of its lattice point in SnappedPoints
   std::uint32_t source = 0;  ///< the point of the set
@@ -38,11 +39,11 @@ struct SnappedPoints {
   PointLattice lattice;
   bool is_exact = false;  ///< the points lie exactly on a decimal lattice
   std::vector<Point> at;
-  std::vector<std::uint32_t> source;  ///< the point of the set that stands for the lattice point
+  std::vector<std::uint32_t> source;  ///< the point of the set that represents the lattice point
   std::vector<double> z;              ///< its height, or the mean
-  std::uint64_t duplicates = 0;       ///< points dropped for another at the same place
-  std::vector<Echo> echoes;           ///< in the order of their lattice points. EMPTY: kFinest without lines
-  std::vector<std::uint32_t> place;   ///< by point of the set: index of its lattice point; EMPTY: as `echoes`
+  std::uint64_t duplicates = 0;       ///< points dropped because another is at the same place
+  std::vector<Echo> echoes;           ///< in the order of their lattice points. EMPTY: for kFinest without lines
+  std::vector<std::uint32_t> place;   ///< lattice point of each point in the set, as an index; EMPTY: like `echoes`
 
   std::size_t size() const { return at.size(); }
 };
@@ -51,13 +52,13 @@ struct SnappedPoints {
 std::uint32_t find_point(const SnappedPoints& points, Point at);
 
 /// Snaps the points to a lattice and drops duplicates. If the coordinates have few enough decimals, the lattice is the
-/// coarsest decimal one that contains them exactly. Otherwise it is the finest whose step is a power of two; points
+/// coarsest decimal one that contains them exactly. Otherwise it is the finest one whose step is a power of two. Points
 /// then move by up to half a step, at most extent / 2^30 (2^23 with kFloat32, 2^24 with kFit). Duplicates are points
 /// with equal coordinates. In a set with lines, whose vertices are often crowded, different points at one lattice point
-/// become echoes. In other sets kFinest rejects them; other steps make them echoes, unless they are nearer than 2^-30
-/// of the extent (no limit with kJudge). With kMean the first point stands for the lattice point. Fails with kInput: a
+/// become echoes. In other sets, kFinest rejects them. Other steps make them echoes, but (except kJudge) reject points
+/// nearer than 2^-30 of the extent. With kMean, the first point represents the lattice point. Fails with kInput for a
 /// coordinate or height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent,
-/// no points, more than 2^31 − 1.
+/// no points, and more than 2^31 − 1 points.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
 

@@ -1,4 +1,4 @@
-// The error of a sample source, where no Result can carry it.
+// The error of a sample source, for functions that do not return a Result.
 #pragma once
 
 #include "scarp/result.h"

@@ -16,7 +16,6 @@ using RareEnds = std::array<HeightCount, HeightRange::kEnds>;
 constexpr std::array kSigns{-999.0,   -10000.0, -32768.0, -9999.0,  -99999.0, -999999.0, -32767.0,
                             -65535.0, 9999.0,   99999.0,  999999.0, 32767.0,  65535.0,   0.0};
 
-/// Conversion of file values to heights.
 struct Scale {
   double scale = 1, offset = 0;
 
@@ -35,7 +34,7 @@ bool is_usual_sign(double value) {
 }
 
 /// True if a height is far from the others, which start at a distance of `gap` and span `range`. `are_many`: this end
-/// has many heights compared with the far ones.
+/// has many other heights compared with the far ones.
 bool is_far(const HeightCount& here, double value, double gap, double range, std::uint64_t valid, bool are_many) {
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100, kLeastOfWhole = 10;

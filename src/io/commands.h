@@ -8,14 +8,14 @@
 
 namespace scarp {
 
-/// The file quoted for a shell; "FILE" for input without a name, such as standard input.
+/// The file's name quoted for a shell; "FILE" for input without a name, such as standard input.
 std::string file_word(const std::string& file);
 /// An unused name: NEW.tif, else NEW2.tif, …, so that one suggested command does not overwrite another's result.
 std::string new_file(const std::string& extension);
 /// "gdal_translate OPTIONS FILE NEW.tif". Unlike gdal_edit, it can set a CRS or a position if the file's format stores
 /// none.
 std::string translate_command(const std::string& options, const std::string& file);
-/// "gdalwarp OPTIONS … FILE NEW.tif". Points outside the raster become nodata; by default gdalwarp writes heights of 0.
+/// "gdalwarp OPTIONS … FILE NEW.tif". Points outside the raster become nodata; by default, gdalwarp sets them to 0.
 std::string warp_command(const std::string& options, const std::string& file);
 
 /// "sed '1,COUNTs/^/#/' FILE > NEW.csv": the first lines become comments.

@@ -1,4 +1,4 @@
-// Whole files, written so that a reader sees the old file or the new one and never a part of it.
+// Reads and writes whole files. A reader sees the old file or the new one, and never a part of it.
 //
 // The bytes are written to a temporary name in the same folder (so that the rename stays inside one file system) and
 // forced to disk before the rename. Every step that can fail is checked, including close(): network file systems report
@@ -117,7 +117,7 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
 
   std::vector<std::uint8_t> bytes;
   try {
-    // The size is only a hint: pipes have none, files may grow. With one extra byte the last read() returns less than
+    // The size is only a hint: pipes have none, files may grow. With one extra byte, the last read() returns less than
     // requested.
     std::size_t room = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) + 1 : 65536;
     std::size_t size = 0;

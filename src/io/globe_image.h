@@ -24,19 +24,18 @@ class GlobeImage {
   virtual DegreeBox covered() const = 0;
   /// Approximate pixels per degree, to the east and to the north.
   virtual std::array<double, 2> per_degree() const = 0;
-  /// The image in a box, side × side pixels, with `ground` for pixels without colour; nothing if no pixel has colour.
-  /// Equal boxes give equal pixels. Fails with kInput.
+  /// The part of the image in a box, as side × side pixels. Pixels without colour become `ground`. Nothing if no pixel
+  /// has colour. Equal boxes give equal pixels. Fails with kInput.
   virtual Result<std::optional<Picture>> read(const DegreeBox& box, int side,
                                               const std::array<std::uint8_t, 3>& ground) const = 0;
 };
 
 /// An 8-bit image, as read_drape() accepts it, in its own CRS. GDAL interpolates it bilinearly, and averages areas
-/// larger than a pixel, from the file's overviews if it has them. On the earth, degrees are those of WGS 84; elsewhere,
-/// the image's own. Fails with kInput: no such file, not 8 bits, no position or CRS, another planet than that of
-/// `ellipsoid`.
+/// larger than a pixel, from the file's overviews if it has them. On the earth, degrees are those of WGS 84; on other
+/// planets, the image's own. Fails with kInput if the file is missing, does not have 8 bits, has no position or CRS, or
+/// is on another planet than `ellipsoid`.
 Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid);
 
-/// The texture of a tile.
 struct TileTexture {
   std::vector<std::uint8_t> bytes;  ///< bytes of an image file
   ImageFormat format = ImageFormat::kJpeg;

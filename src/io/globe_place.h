@@ -15,11 +15,11 @@
 
 namespace scarp {
 
-/// `path`: the raster's, for error messages. Without `datum.ellipsoid` the ellipsoid is that of WGS 84, or the CRS's
-/// own if it is another planet's (more than 1 % larger or smaller). Fails with kInput without a georeference or a CRS,
-/// for heights not in metres, if PROJ cannot convert to longitude and latitude, and beyond 180° of a cylindrical
-/// projection. Fails with kUsage if the reference of the heights is unknown or belongs to another planet, or if PROJ's
-/// grid for it is not on this machine. Also fails as read_geoid().
+/// `path`: the raster's, for error messages. Without `datum.ellipsoid`, the ellipsoid is that of WGS 84, or that of the
+/// CRS if it belongs to another planet (more than 1 % larger or smaller). Fails with kInput without a georeference or a
+/// CRS, for heights not in metres, if PROJ cannot convert to longitude and latitude, and for a raster beyond 180° of a
+/// cylindrical projection. Fails with kUsage if the reference of the heights is unknown or belongs to another planet,
+/// or if PROJ's grid for it is not on this machine. Also fails as read_geoid() does.
 Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, const Datum& datum,
                                      const std::string& path);
 
@@ -30,14 +30,14 @@ Result<void> check_metres(const RasterInfo& info, const std::string& path);
 GridKind grid_for(const RasterInfo& info);
 
 /// `cell_size`: metres, for a raster without a position. Heights do not change; `datum` determines the height of the
-/// whole plane. kAuto means kNone if the CRS has no information. Fails with kInput for a raster in degrees, rotated or
-/// mirrored in its CRS, and if cells but not heights are in metres. Fails with kUsage for a datum unsuitable for the
-/// raster, and as place_on_globe().
+/// whole plane. kAuto means kNone if the CRS does not declare a reference of heights. Fails with kInput for a raster
+/// that is in degrees, rotated or mirrored in its CRS, and if cells are in metres but heights are not. Fails with
+/// kUsage for a datum unsuitable for the raster, and as place_on_globe() does.
 Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows, const std::optional<double>& cell_size,
                                      const Datum& datum);
 /// REQUIRES: the raster has a position in a projected CRS.
 Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRaster& raster, const RasterOnGlobe& globe);
-/// True if the raster's CRS cannot be converted to the globe, like a building site's.
+/// True if the raster's CRS cannot be converted to the globe, like that of a building site.
 bool is_local_crs(const RasterInfo& info);
 
 /// A reference surface of heights.

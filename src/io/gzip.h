@@ -14,11 +14,11 @@ namespace scarp {
 
 /// A gzip file of the bytes, without a time or a name. With one version of zlib, equal bytes give equal files.
 Result<std::vector<std::uint8_t>> compress_gzip(std::span<const std::uint8_t> bytes);
-/// The same for a mesh, whose numbers hardly repeat. Coding bytes only by frequency gives no larger files than a search
-/// for repetitions, in a twentieth of the time. If the result is so small that the bytes must be repetitive, as for a
-/// flat tile, the search is tried, too, and the smaller file is returned.
+/// Like compress_gzip(), for a mesh, whose numbers hardly repeat. Bytes are coded only by frequency. This needs a
+/// twentieth of the time of a search for repetitions, and the files are not larger. If the result is so small that the
+/// bytes must be repetitive, as for a flat tile, the search is also tried, and the smaller file is returned.
 Result<std::vector<std::uint8_t>> compress_gzip_of_mesh(std::span<const std::uint8_t> bytes);
-/// The inverse. Fails with kInput if the file is not gzip, is damaged, or holds more than `most` bytes.
+/// Decompresses a file. Fails with kInput if the file is not gzip, is damaged, or holds more than `most` bytes.
 Result<std::vector<std::uint8_t>> decompress_gzip(std::span<const std::uint8_t> bytes, std::size_t most);
 /// True for bytes that begin like a gzip file.
 bool is_gzip(std::span<const std::uint8_t> bytes);

@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// The rest of an error message: the kind of the file, by its first bytes or else its extension, and how to convert it
-/// to a supported one. Empty if unknown. `by_name`: also use the extension.
+/// The end of an error message: the kind of the file, and how to convert it to a supported kind. The kind is found by
+/// the first bytes or else, if `by_name`, by the extension. Empty if unknown.
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name = true);
 
 }  // namespace scarp

@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-/// "no such file", plus similar names in its folder: another extension, or a typo.
+/// "no such file", plus names in its folder that differ only by the extension or a typo.
 std::string describe_missing(const std::string& path);
 
 }  // namespace scarp

@@ -14,7 +14,7 @@ namespace scarp {
 
 class StagedFile {
  public:
-  /// Devices, pipes and standard output have no old content to protect, so no file is renamed. With `by_name` their
+  /// Devices, pipes and standard output have no old content to protect, so no file is renamed. With `by_name`, their
   /// bytes go to the folder for temporary files, else directly to the target. Fails as write_file() does.
   static Result<StagedFile> begin(const std::string& path, bool overwrite, bool by_name);
 

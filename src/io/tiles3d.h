@@ -1,8 +1,8 @@
 // 3D Tiles 1.1 of terrain: the tiles of a pyramid as GLB files, and the metadata files that list them. CesiumJS can use
-// a set as terrain (Cesium3DTilesTerrainProvider) or as an ordinary tileset. Other 3D Tiles clients can use it, too.
+// a set as terrain (Cesium3DTilesTerrainProvider) or, like other 3D Tiles clients, as an ordinary tileset.
 //
 // POSITIONS are earth-centred and lie on one lattice per level: multiples of a power of two, at most 1/32 of the
-// level's max error. Vertices shared by neighbours are the same doubles in both. On the plane of a local grid,
+// level's max error. A vertex shared by neighbouring tiles has the same doubles in both. On the plane of a local grid,
 // positions are metres from the raster's centre and lie on its samples.
 #pragma once
 
@@ -35,13 +35,13 @@ double lattice_error(const PyramidPlan& plan, int z);
 
 /// The facts about a tile that clients need in addition to its mesh.
 struct TileFacts {
-  /// Bounds of the triangles, metres above the ellipsoid or the plane; includes the depth of flat triangles below the
-  /// curved surface.
+  /// Height range of the triangles, in metres above the ellipsoid or the plane. It includes the depth of flat triangles
+  /// below the curved surface.
   double min_height = 0, max_height = 0;
   std::array<double, 4> sphere{};  ///< contains the triangles: centre, radius
   /// Horizon occlusion point, in units of the ellipsoid's axes: a viewer who does not see it sees no part of the tile.
-  /// Always finite; far away for tiles that the horizon cannot hide. 0, 0, 0 without a horizon: on the plane of a local
-  /// grid.
+  /// Always finite; far away for tiles that the horizon cannot hide. (0, 0, 0) on the plane of a local grid, which has
+  /// no horizon.
   std::array<double, 3> horizon_point{};
 
   bool has_horizon() const { return horizon_point != std::array<double, 3>{}; }
@@ -49,7 +49,6 @@ struct TileFacts {
   friend bool operator==(const TileFacts&, const TileFacts&) = default;
 };
 
-/// A tile in space.
 struct EarthTile {
   std::array<double, 3> steps{1, 1, 1};               ///< metres, along each axis; all equal on a globe
   std::array<std::int64_t, 3> origin{};               ///< in steps: x towards 0° E, z towards the north pole
@@ -74,16 +73,16 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan);
 
 struct TileGlbOptions {
   /// Use EXT_meshopt_compression (version 0 of the codec) and KHR_mesh_quantization. Positions then have 16 bits if the
-  /// offsets fit, normals 8. Ignored in builds without libmeshoptimizer. DEFAULT: true.
+  /// offsets fit, and normals have 8 bits. Ignored in builds without libmeshoptimizer. DEFAULT: true.
   bool compress = true;
   std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none; the ground then has one colour.
 };
 
-/// The bytes of a GLB file: one node with a matrix, and one mesh. Its first primitive is the surface, with
-/// CESIUM_tile_edges, clockwise; CesiumJS uses only this one for terrain. The second is the skirt, as its extras
-/// declare. The skirt's vertices are pairs: one on an edge and one below. The y axis points up, as glTF requires; 3D
-/// Tiles clients rotate positions back. Texture coordinates are multiples of 1/65535. asset.extras holds the facts.
-/// Fails as encode_glb().
+/// The bytes of a GLB file: one node with a matrix, and one mesh. Its first primitive is the surface, with its edges in
+/// CESIUM_tile_edges, clockwise. CesiumJS uses only this primitive for terrain. The second one is the skirt, as its
+/// extras declare. The skirt's vertices are pairs: one on an edge and one below it. The y axis points up, as glTF
+/// requires; 3D Tiles clients rotate positions back. Texture coordinates are multiples of 1/65535. asset.extras holds
+/// the facts. Fails as encode_glb() does.
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
 /// The facts of a tile written by encode_tile_glb(). Fails with kInput for other files.
@@ -108,7 +107,7 @@ struct TileGlb {
 /// Fails with kInput unless Scarp wrote the file; accepts untrusted bytes.
 Result<TileGlb> decode_tile_glb(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
-/// A set's tiles, by level, row and column.
+/// The facts of a set's tiles, by level, row and column.
 using FactsByTile = std::map<std::tuple<int, std::uint32_t, std::uint32_t>, TileFacts>;
 
 struct NamedFile {
@@ -117,9 +116,9 @@ struct NamedFile {
 };
 
 /// tileset.json and "subtrees/r/z/x/y.subtree": two roots of 180° with implicit children, named as in TileFormat::kGlb.
-/// A local grid has one root, in a box, with the transform of facts.plane. A tile's geometric error is its root's
-/// divided by a power of two, and at least its level's proven error. REQUIRES: all roots exist, and every other tile's
-/// parent.
+/// A local grid has one root, in a box, with the transform of facts.plane. A tile's geometric error is that of its root
+/// divided by a power of two, and at least its level's proven error. REQUIRES: all roots exist, and the parents of all
+/// other tiles.
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
 

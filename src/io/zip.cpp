@@ -1,7 +1,7 @@
 // ZIP as used for document archives (PKWARE's APPNOTE 6.3). The writer knows all sizes beforehand. The reader uses the
 // sizes in the directory at the end, since streaming writers omit those in front of entries. It always accepts 64-bit
-// sizes, since some programs write them for any size. They are written only if an archive is too large or has too many
-// entries.
+// sizes, since some programs write them for any size. The writer uses 64-bit sizes only if an archive is too large or
+// has too many entries.
 
 #include "io/zip.h"
 

@@ -22,7 +22,6 @@ Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries);
 
 inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
 
-/// The record of an entry in an archive.
 struct ZipRecord {
   std::string_view name;
   std::uint64_t offset = 0, packed = 0, size = 0;  ///< offset of the entry's header; compressed and original size in
@@ -40,11 +39,10 @@ void append_zip_record(std::vector<std::uint8_t>& bytes, const ZipRecord& record
 /// Appends the end that follows a directory of `count` records, which starts at `start` and has `size` bytes.
 void append_zip_end(std::vector<std::uint8_t>& bytes, std::uint64_t count, std::uint64_t start, std::uint64_t size);
 
-/// The position of an archive's directory.
 struct ZipDirectory {
   std::uint64_t count = 0, start = 0;
 };
-/// Largest size of the end of an archive behind its directory, with 64-bit numbers and a comment.
+/// Largest size of the end of an archive, after its directory, with 64-bit numbers and a comment.
 inline constexpr std::uint64_t kLongestZipEnd = 22 + 65535 + 20 + 56;
 /// `tail`: the last kLongestZipEnd bytes of an archive of `size` bytes, or all. Fails with kInput if it is no archive.
 Result<ZipDirectory> find_zip_directory(std::span<const std::uint8_t> tail, std::uint64_t size);
@@ -61,9 +59,9 @@ Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std:
 /// Reads entries of an archive individually, by name. Borrows the bytes.
 class ZipReader {
  public:
-  /// Fails with kInput if it is no archive, or one of several volumes.
+  /// Fails with kInput if it is no archive, or has several volumes.
   static Result<ZipReader> open(std::span<const std::uint8_t> bytes);
-  /// The name equal to `name` up to the case of ASCII letters; empty if none.
+  /// The entry name that equals `name` if the case of ASCII letters is ignored; empty if none.
   std::string find(std::string_view name) const;
   /// Fails with kInput for a missing name, and as unpack_zip_entry() does.
   Result<std::vector<std::uint8_t>> extract(std::string_view name) const;

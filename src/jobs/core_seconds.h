@@ -1,11 +1,10 @@
-// CPU time used by the process.
+// CPU time used so far by all threads of the process.
 #pragma once
 
 #include <ctime>
 
 namespace scarp {
 
-/// CPU time of all threads of the process so far.
 inline double core_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

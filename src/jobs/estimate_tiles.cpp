@@ -23,7 +23,7 @@ constexpr double kSecondsOfNode = 25e-9;
 constexpr double kSecondsAbove = 0.01, kBytesAbove = 2000;
 /// Memory that finish_pyramid() needs for a block.
 constexpr std::uint64_t kReducedBytes = 330'000;
-/// The program, without nodes.
+/// Memory of the program, without nodes.
 constexpr std::uint64_t kProgramBytes = 90'000'000;
 
 bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& covered) {

@@ -43,7 +43,6 @@ struct GlobeSource {
   }
 };
 
-/// Places a source on the globe.
 Result<void> place_source(GlobeSource& source, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
   SCARP_TRY(source.globe, place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path));

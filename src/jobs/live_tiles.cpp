@@ -17,7 +17,7 @@ namespace {
 
 /// Memory of a cached tile in addition to its bytes.
 constexpr std::uint64_t kEntryBytes = 200;
-/// Number of finest levels, whose tiles are built fast enough on request.
+/// Number of the finest levels whose tiles are built fast enough on request.
 constexpr int kFastLevels = 3;
 /// Four concurrent tiles of the level below the blocks use as much memory as one block.
 constexpr int kPreparingThreads = 4;
@@ -69,7 +69,7 @@ class PreparedTiles final : public TileSink {
   explicit PreparedTiles(const TileEncoder& encode) : encode_(encode) {}
 
   void set_limit(std::uint64_t bytes) { room_ = bytes; }
-  /// Reserves shared memory.
+  /// Reserves bytes within the limit.
   Result<void> take_room(std::uint64_t bytes) {
     is_full_ = is_full_ || bytes > room_;
     if (is_full_) return fail(ErrorKind::kCancelled, "no room for more tiles");

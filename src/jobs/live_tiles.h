@@ -18,11 +18,10 @@
 
 namespace scarp {
 
-/// A cached tile.
 struct LiveTile {
   std::vector<std::uint8_t> bytes;
-  /// TerrainTile::bound(). Empty for tiles above the block level until prepare() has built them, since not all nodes
-  /// were examined.
+  /// TerrainTile::bound(). Empty for tiles above the block level until prepare() has built them, since not all of their
+  /// nodes were examined.
   std::optional<double> bound;
 };
 
@@ -30,10 +29,10 @@ struct LiveTile {
 /// Several threads may read at once.
 class LiveTileSet final : public TileSetReader {
  public:
-  /// Finds the existing tiles. With at most `look_nodes` nodes, all nodes are examined and the tiles are those of the
-  /// finished set. With more nodes, tiles exist wherever the raster may cover them, and are flat without heights.
-  /// `cache`: bytes for cached tiles. Borrows `nodes`. Progress: pass "look". Fails as find_tiles() does, and with
-  /// kUsage for another format.
+  /// Finds the existing tiles. In a job of at most `look_nodes` nodes, all nodes are examined, and the tiles are those
+  /// of the finished set. In a larger job, a tile exists wherever the raster may cover it, and tiles without heights
+  /// are flat. `cache`: bytes for cached tiles. Borrows `nodes`. Progress: pass "look". Fails as find_tiles() does, and
+  /// with kUsage for another format.
   static Result<std::unique_ptr<LiveTileSet>> open(const TileJob& job, const NodeSource& nodes, std::uint64_t cache,
                                                    const Run& run = {},
                                                    std::uint64_t look_nodes = std::uint64_t{1} << 28);
@@ -48,7 +47,7 @@ class LiveTileSet final : public TileSetReader {
   Result<std::vector<std::uint8_t>> read_tile(TileId id) const override;
   Result<std::vector<std::uint8_t>> read_file(const std::string& name) const override;
 
-  /// Like read_tile(), with the tile's bound. Fails with kInput if the set has no such tile, and as make_tile().
+  /// Like read_tile(), with the tile's bound. Fails with kInput if the set has no such tile, and as make_tile() does.
   /// Memory: up to 300 MB per call for a tile of the block level, less for tiles below.
   Result<std::shared_ptr<const LiveTile>> make(TileId id) const;
 

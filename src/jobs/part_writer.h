@@ -25,14 +25,15 @@ class PartWriter {
   static Result<std::unique_ptr<PartWriter>> create(const std::string& folder, Shard shard, const TileJob& job);
   PartWriter(const PartWriter&) = delete;
   PartWriter& operator=(const PartWriter&) = delete;
-  /// Deletes a file without records.
+  /// Deletes the file if it has no records.
   ~PartWriter();
 
-  /// True if another process was writing to a part of the share when this one was created.
+  /// True if another process was writing to a part of the share when this writer was created.
   bool has_company() const { return has_company_; }
   /// The block is on disk when this returns. Fails with kOutput.
   Result<void> add(const BlockReport& block, const std::vector<PackedTile>& tiles);
-  /// Records that an existing block has `nodes` nodes in the job's sources, too. Fails with kOutput.
+  /// Records that an existing block is also valid for the job's sources. `nodes`: the hash of its nodes. Fails with
+  /// kOutput.
   Result<void> confirm(TileId block, std::uint64_t nodes);
 
  private:

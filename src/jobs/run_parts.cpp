@@ -15,7 +15,6 @@
 namespace scarp {
 namespace {
 
-/// Stores the tiles of a block.
 class BlockSink final : public TileSink {
  public:
   explicit BlockSink(TileEncoder encoder) : encoder_(std::move(encoder)) {}

@@ -2,8 +2,8 @@
 //
 // File format: "SCARPTIL", version, key of the settings; then records, each with the payload's length, CRC-32 and the
 // payload. The payload begins with the block's name, the key of the sources, and the hash of the block's nodes. A
-// payload with no more data confirms that another record's block with the same nodes is also valid for these sources.
-// All numbers are little-endian.
+// payload that ends there confirms that another record's block with the same nodes is also valid for these sources. All
+// numbers are little-endian.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -161,7 +161,7 @@ struct TileParts::Impl {
   std::map<std::string, std::size_t> names;
   std::vector<File> files;
   std::map<Block, std::map<std::uint64_t, Place>> blocks;  ///< by the hash of nodes
-  std::map<Block, std::uint64_t> current;                  ///< nodes of blocks in the job's sources
+  std::map<Block, std::uint64_t> current;                  ///< hashes of the blocks' nodes in the job's sources
 
   static Block name_of(TileId id) { return {id.z, id.x, id.y}; }
 

@@ -26,7 +26,6 @@ TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const G
   };
 }
 
-/// Writes tiles as 3D Tiles.
 class TerrainTilesetSink final : public TileSetSink {
  public:
   TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)

@@ -10,7 +10,7 @@ namespace scarp {
 namespace {
 
 constexpr int kLeastSide = 256;
-/// Largest side of a texture: a tile's screen pixels before clients load its children; for tiles without children.
+/// Largest side of a texture for a tile with children (its side on screen before clients load them), and without.
 constexpr int kMostSide = 512, kMostLeafSide = 2048;
 
 int choose_side(const GlobeImage& image, const PyramidPlan& plan, TileId id) {

@@ -12,9 +12,9 @@
 
 namespace scarp {
 
-/// The texture's sides are the smallest 256 · 2^k pixels that reach the image's resolution: at most 512, which clients
-/// show until they load the tile's children, or 2048 for a tile without children. Nothing if the image has no colour
-/// there. Fails as GlobeImage::read() and encode_image().
+/// The texture's sides are the smallest 256 · 2^k pixels that reach the image's resolution. The limit is 512 pixels,
+/// the largest side on screen before clients load the tile's children, or 2048 for a tile without children. Nothing if
+/// the image has no colour there. Fails as GlobeImage::read() and encode_image() do.
 Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
                                                      const PyramidPlan& plan, TileId id);
 

@@ -25,8 +25,8 @@ class ChunkDecoder {
 
 /// For records of POINT10, GPSTIME11, RGB12, WAVEPACKET13 and BYTE items: one stream has all items of a point.
 std::unique_ptr<ChunkDecoder> make_pointwise_decoder(const LazRecord& record);
-/// For records that begin with POINT14: each of its fields is a stream. Skips streams that are not needed, and all
-/// other items.
+/// For records that begin with POINT14: each of its fields has a separate stream. Skips streams that are not needed,
+/// and all other items.
 std::unique_ptr<ChunkDecoder> make_layered_decoder(const LazRecord& record);
 
 }  // namespace scarp::las

@@ -7,9 +7,9 @@
 
 namespace scarp::las {
 
-/// The double nearest to i · scale + offset, with scale and offset as the short decimals that their doubles stand for,
-/// so that points stay on the lattice of their file. 123456789 · 0.01 is 1234567.89, though no double is 0.01. A scale
-/// or offset with more than 22 decimals, or beyond 10^25, is used as the double itself.
+/// The double nearest to i · scale + offset, where scale and offset are the short decimals that their doubles
+/// represent, so that points stay on the lattice of their file. For example, 123456789 · 0.01 is 1234567.89, though no
+/// double equals 0.01. A scale or offset with more than 22 decimals, or beyond 10^25, is used as the double itself.
 class DecimalAxis {
  public:
   /// REQUIRES: both are finite.

@@ -92,7 +92,7 @@ void read_geo_keys(CrsFacts& crs) {
     if (key == kVerticalUnits) crs.vertical_unit = code_of(value);
   }
   if (crs.projected != 0) crs.is_geographic = false;
-  // A projected CRS without a code: the code of its degrees is another CRS.
+  // If a projected CRS has no code, the code of its geographic CRS does not identify it.
   if (!crs.is_geographic && crs.projected == 0) crs.is_user_defined = crs.is_user_defined || crs.geographic != 0;
 }
 

@@ -20,7 +20,7 @@ struct CrsFacts {
 
   /// "EPSG:26910+5703", "EPSG:4326", WKT; empty if the file has neither codes nor WKT.
   std::string definition() const;
-  /// True if x and y are degrees, by the keys, else by the words of the WKT.
+  /// True if x and y are degrees, according to the keys, or else to the WKT.
   bool is_degrees() const;
 };
 

@@ -116,7 +116,7 @@ class HeaderReader {
     return {};
   }
 
-  /// Reads WKT behind the points, in version 1.4. A file without WKT is accepted.
+  /// Reads the WKT stored after the points (LAS 1.4 only). A file without WKT is accepted.
   Result<void> read_extended_records() {
     if (header_.minor_version < 4 || !header_.crs.wkt.empty()) return {};
     if (!read_into(0, kBytesOf14)) return {};

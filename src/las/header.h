@@ -1,4 +1,4 @@
-// The header of a LAS or LAZ file, versions 1.0 to 1.4, and the records behind it (ASPRS, "LAS Specification 1.4 -
+// The header of a LAS or LAZ file, versions 1.0 to 1.4, and the records after it (ASPRS, "LAS Specification 1.4 -
 // R15").
 #pragma once
 

@@ -1,5 +1,5 @@
-// Integers of LAZ files, by the integer compressor of the LASzip specification: the number k of bits of the difference
-// to a prediction, then these bits.
+// Decodes integers of LAZ files, written by the integer compressor of the LASzip specification. It stores the number k
+// of bits of the difference from a prediction, then these bits.
 #pragma once
 
 #include <algorithm>

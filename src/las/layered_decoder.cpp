@@ -73,7 +73,7 @@ struct Channel {
   LasPoint point() const { return extended_point(x, y, z, static_cast<unsigned>(n) << 4 | r, flags & 15U, number); }
 };
 
-/// The streams that are read; nothing if without bytes.
+/// The streams that are read. A stream without bytes is absent.
 struct Layers {
   RangeDecoder places;
   std::optional<RangeDecoder> heights, classes, flags;
@@ -135,7 +135,7 @@ class LayeredDecoder final : public ChunkDecoder {
     channel.begin();
   }
 
-  /// Nothing if they exceed the chunk.
+  /// Nothing if the layers exceed the chunk.
   std::optional<Layers> find_layers(std::span<const std::uint8_t> bytes) const {
     const std::uint64_t sizes_at = first_bytes_ + 4;
     std::uint64_t at = sizes_at + 4 * layer_count_;

@@ -11,7 +11,7 @@
 
 namespace scarp::las {
 
-/// A group of a point's fields that are compressed together. The values are the numbers in the file.
+/// A group of a point's fields that are compressed together. The enumerators have the numbers used in the file.
 enum class LazItemType : std::uint16_t {
   kByte = 0,
   kPoint10 = 6,

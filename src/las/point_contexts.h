@@ -92,7 +92,7 @@ inline constexpr std::uint8_t kLegacyReturnContexts[8][8] = {
 
 /// The context of return r of n, in formats 6 to 10: unlike the legacy one, it distinguishes few of the high returns.
 constexpr std::uint8_t find_return_context(unsigned n, unsigned r) {
-  constexpr std::uint8_t kOneNumber[16] = {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5};  // the other one is missing
+  constexpr std::uint8_t kOneNumber[16] = {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5};  // if n or r is missing
   constexpr std::uint8_t kUpToThree[4][4] = {{}, {0, 0, 1, 3}, {0, 1, 2, 4}, {0, 3, 4, 5}};
   if (n == 0 || r == 0) return kOneNumber[n + r];
   if (n <= 3 && r <= 3) return kUpToThree[n][r];

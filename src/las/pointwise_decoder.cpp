@@ -21,7 +21,7 @@ namespace {
 
 constexpr unsigned kLeadingBits = 0xFFFFFFFEU;  // contexts of differences do not distinguish bit counts 2k and 2k + 1
 
-/// An item of a point behind the item with its position.
+/// An item of a point after the item with its position.
 class Item {
  public:
   virtual ~Item() = default;
@@ -183,7 +183,8 @@ class Point10V1 final : public PositionItem {
   LastThree x_ways_, y_ways_;
 };
 
-/// The unit of time differences. After four differences that are no encodable multiple, the last becomes the unit.
+/// The unit of time differences. After four differences that are not encodable multiples, the last one becomes the
+/// unit.
 struct TimeUnit {
   std::int32_t difference = 0;
   int extremes = 0;

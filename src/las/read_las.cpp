@@ -56,7 +56,7 @@ class Chooser {
     if (!is_wanted_return(point)) return tally.other_returns;
     return tally.used;
   }
-  /// Files without numbers of returns have return 0 of 0, which is an only return.
+  /// Files without numbers of returns have return 0 of 0, which counts as an only return.
   bool is_wanted_return(const LasPoint& point) const {
     switch (selection_.returns) {
       case Returns::kAll:

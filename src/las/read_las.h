@@ -24,7 +24,8 @@ struct Selection {
   std::optional<Extent> extent = std::nullopt;
 };
 
-/// Every point of the file is counted once: as used, or for the first reason to omit it, in the order of the fields.
+/// Every point of the file is counted once: either as used, or under the first reason to omit it, in the order of the
+/// fields.
 struct Tally {
   std::array<std::uint64_t, 256> classes{};  ///< all points, used or not, except those outside or withheld
   std::uint64_t outside = 0, withheld = 0, other_classes = 0, overlap = 0, other_returns = 0, used = 0;

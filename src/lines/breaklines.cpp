@@ -135,12 +135,12 @@ std::vector<Segment> segments_of(const Outline& outline) {
 /// The heights of hard lines at one point, line by line.
 struct Claims {
   std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; `opponent` differs in height
-  std::uint32_t count = 0;                          ///< distinct heights per line, summed up
+  std::uint32_t count = 0;                          ///< number of distinct heights, summed over lines
   bool are_opposed = false;
   bool yield = false;  ///< the heights belong to lines that yield
   double first_height = 0, first_tolerance = 0, last_height = 0, opposed_height = 0;
   double sum = 0, highest = 0;
-  double climb = 0;  ///< change of the raster in a step
+  double climb = 0;  ///< change of the raster per step
 
   void add(std::uint32_t line, bool yields, double height, double tolerance) {
     if (count > 0 && yields != yield) {

@@ -1,4 +1,5 @@
-// Lines of a map snapped to the lattice of a raster and arranged with the outline of its surface, with heights.
+// Lines of a map, with heights. They are snapped to the lattice of a raster and arranged with the outline of its
+// surface.
 #pragma once
 
 #include <array>
@@ -22,16 +23,16 @@
 namespace scarp {
 
 struct Breaklines {
-  /// Vertices of the lines within the raster's rectangle and of its outline, in raster order, in kLatticeSteps of a
-  /// sample.
+  /// The vertices of the outline, and of the lines within the raster's rectangle. They are in raster order, with
+  /// kLatticeSteps steps per sample.
   std::vector<Point> points;
   /// The height of each point: the height of the hard lines through it, otherwise the raster's. The raster is bilinear
-  /// in a cell of four heights and a plane in one of three. In other cells its height is the mean of the valid corners
-  /// with bilinear weights, or NaN if they have no weight. On a sample it is the sample.
+  /// in a cell with four heights, and a plane in a cell with three. In other cells, its height is the mean of the valid
+  /// corners with bilinear weights, or NaN if their weights are 0. On a sample, it is the sample's value.
   std::vector<float> heights;
   std::vector<bool> is_hard;  ///< for each point: lines determine its height
   std::vector<Arrangement::Edge> edges;
-  std::vector<bool> is_held;  ///< for each edge: true unless only starts run there; EMPTY: no starts
+  std::vector<bool> is_held;  ///< for each edge: true if a permanent line or the outline runs there; EMPTY: all
 
   std::uint64_t outside = 0;  ///< lines with no part inside
 
@@ -56,20 +57,22 @@ bool is_inserted_first(const Line& line);
 /// `outline` is the result of trace_outline(), not simplified. Outline and rectangle are the rigid edges.
 ///
 /// Along a hard line, heights are interpolated between vertices. The line is soft between a vertex with a height and
-/// one without. The lattice moves lines by up to two steps. Some difference of height between two hard lines is thus no
-/// conflict: the change of either line, or of the raster in that cell, within two steps, plus the rounding of float32.
-/// Then the height of the first given line is used, as in kFirst.
+/// one without. The lattice moves lines by up to two steps, so a small difference of height between two hard lines is
+/// no conflict. It may be as large as the change of either line, or of the raster in that cell, within two steps, plus
+/// the rounding of float32. In this case the height of the first given line is used, as with kFirst.
 ///
-/// Fails with kInput where hard lines conflict (kError: names both and the place in map coordinates), and for
-/// coordinates too large for the raster's precision. Fails with kUsage for a raster of more than 2^30 / kLatticeSteps
-/// samples a side. REQUIRES: lines as read_lines() returns them; the affine map is invertible. Cost: as arrange(), plus
-/// a visit to each point of each hard line (with chains: of each line), n²/2 for n overlapping lines.
+/// Fails with kInput for coordinates too large for the raster's precision, and, with kError, where hard lines conflict;
+/// the error names both lines and the place in map coordinates. Fails with kUsage for a raster of more than 2^30 /
+/// kLatticeSteps samples a side. REQUIRES: lines as read_lines() returns them; the affine map is invertible. Cost: as
+/// arrange(), plus a visit to each point of each hard line (with chains: of each line); n overlapping lines need n²/2
+/// visits.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
-/// The same, but reads only samples near lines. `rigid`: edges in kLatticeSteps, without the rectangle: the outline
-/// wherever lines pass, and all other edges at which lines are cut.
+/// The same, but reads only samples near lines. `rigid`: the rigid edges, in kLatticeSteps, except the rectangle's
+/// sides. They must include the outline wherever lines pass near it, and all other edges at which lines are to be
+/// split.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
                                     bool with_chains);
@@ -79,7 +82,7 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows);
 
-/// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
+/// The height of the surface (see Breaklines::heights) at a point within the raster, in kLatticeSteps.
 double height_between_samples(const SampleView& heights, Point point);
 
 /// The same at the nearest lattice point; NaN beyond the raster.

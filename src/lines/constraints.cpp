@@ -48,7 +48,7 @@ std::vector<Vertex> corners_of(const Triangulation& tin) {
   return corners;
 }
 
-/// Makes a triangle at a vertex the last touched one, so that a query for its edges need not search.
+/// Makes a triangle at a vertex the last touched one, so that a query for the vertex's edges need not search.
 void touch(Triangulation& tin, Vertex v, Triangle hint) {
   const HalfEdge last = 3 * tin.last_touched();
   if (tin.origin(last) == v || tin.origin(last + 1) == v || tin.origin(last + 2) == v) return;

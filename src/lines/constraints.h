@@ -15,14 +15,14 @@
 
 namespace scarp {
 
-/// Vertices, and edges between them. Edges share end points only, and contain no vertex in their interior.
+/// Vertices, and edges between them. Edges share only end points, and contain no vertex in their interior.
 struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< heights of the points; the height of a sample has precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
   std::vector<std::uint8_t> is_shared;  ///< by point: 1 if it is also inserted outside the domain; EMPTY: none is
   std::vector<std::uint8_t> is_start;   ///< by edge: 1 if the final mesh need not contain it; EMPTY: all are permanent
-  bool is_inserted_first = false;       ///< before the surface is refined
+  bool is_inserted_first = false;       ///< edges are inserted before the surface is refined
   std::optional<SurfaceCut> cut;        ///< none: no cut
 };
 
@@ -44,8 +44,8 @@ class ConstrainedMesh {
   void release_starts(Triangulation& tin);
 
   const LatticeHeights& heights() const { return heights_; }
-  /// The lattice of all current vertices of `tin`: their heights, and the vertices that the graph still fixes. Several
-  /// threads require that the samples are a raster, not rows.
+  /// The lattice of all current vertices of `tin`: their heights, and the vertices that the graph still fixes.
+  /// REQUIRES: on several threads, the samples are a raster, not rows.
   VertexLattice lattice(int threads = 1) const;
 
  private:
@@ -53,7 +53,7 @@ class ConstrainedMesh {
 
   const Triangulation* tin_;
   LatticeHeights heights_;
-  std::vector<Vertex> fixed_, starts_;  // starts_: vertices of starts only
+  std::vector<Vertex> fixed_, starts_;  // starts_: vertices that belong only to starts
   std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;
   bool has_surface_ = true;

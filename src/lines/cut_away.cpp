@@ -59,7 +59,7 @@ class CutAway {
     return std::int64_t{target.x - p.x} * (q.x - p.x) + std::int64_t{target.y - p.y} * (q.y - p.y) > 0;
   }
 
-  /// The half-edge from v towards the target; if it has no triangle, the one in the opposite direction.
+  /// The half-edge from v towards the target; if it has no triangle, its opposite half-edge.
   HalfEdge edge_towards(Vertex v, Point target) const {
     const HalfEdge first = first_[v];
     HalfEdge h = first;
@@ -95,7 +95,8 @@ class CutAway {
     }
   }
 
-  /// True if the part remains. Its walls decide; without walls, a sample in it that is on no wall; else one triangle.
+  /// True if the part remains. Its walls decide; without walls, a sample in it that is on no wall decides, or else a
+  /// triangle.
   bool stays() const {
     if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
     for (const Triangle t : part_) {
@@ -108,7 +109,7 @@ class CutAway {
     return holds_centre(part_.front());
   }
 
-  /// Counts outline edges to the left of the triangle's centre; an odd count is inside.
+  /// Counts outline edges to the left of the triangle's centre; an odd count means inside.
   bool holds_centre(Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
     const Int128 x = Int128{a.x} + b.x + c.x, y = Int128{a.y} + b.y + c.y;
@@ -128,7 +129,7 @@ class CutAway {
   std::vector<Wall> walls_;      // by half-edge
   std::vector<HalfEdge> first_;  // by vertex, one that starts there
   std::vector<Triangle> part_;
-  Wall verdict_ = Wall::kNo;  // side of a wall of the part
+  Wall verdict_ = Wall::kNo;  // side of a wall on which the part lies
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace scarp {
 
 struct SurfaceCut {
-  /// Edges of a graph, by indices of its points, that separate the remaining side (positive) from the removed one.
+  /// Edges of a graph, by indices of its points, that separate the remaining side (positive) from the removed side.
   std::vector<std::array<std::uint32_t, 2>> walls;
   /// The border of the remaining part, in kLatticeSteps: the walls, and parts of the raster's rectangle.
   std::vector<std::array<Point, 2>> outline;

@@ -108,7 +108,7 @@ class SourceWithin final : public SampleSource {
 /// Counts heights within runs and outside, row by row from the top.
 class OutsideCount {
  public:
-  /// `samples`: the original ones of a row.
+  /// `samples`: the original samples of a row.
   void add(std::span<const SampleRun> within, std::span<const float> samples) {
     here_.assign(samples.size(), 0);
     const HeightRange here = range_of(samples);
@@ -125,7 +125,6 @@ class OutsideCount {
     result_.lost += here.valid - kept;
   }
   const MaskedOutside& result() const { return result_; }
-  /// The range of all heights.
   const HeightRange& range() const { return range_; }
 
  private:

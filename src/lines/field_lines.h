@@ -16,23 +16,23 @@ namespace scarp {
 
 struct FieldLines {
   ConstraintGraph graph;
-  /// The raster's samples, NaN for nodata and well beyond a cutline. Samples on hard lines have the line's height.
-  /// EMPTY: the field's own.
+  /// The raster's samples. Nodata and samples well beyond a cutline are NaN. Samples on hard lines have the line's
+  /// height. EMPTY: the field's samples apply.
   std::vector<float> samples;
-  /// Replaces `samples` if the field has a source and samples are edited; not cut.
+  /// Replaces `samples`, without the cut, if the field has a source and samples are edited.
   std::shared_ptr<const SampleSource> source;
-  std::vector<SampleEdit> edits;  ///< edits of these samples
+  std::vector<SampleEdit> edits;  ///< the changed samples on hard lines
   FarthestLine farthest;
-  std::uint64_t inserted = 0;  ///< breaklines with a part in the raster, except those inserted first
+  std::uint64_t inserted = 0;  ///< breaklines with a part in the raster, except lines inserted first
   std::uint64_t valid = 0;     ///< valid samples before the cut; 0: unknown
 
-  /// `field` with these samples, which it borrows.
+  /// `field` with these samples, which the result borrows.
   HeightField apply(const HeightField& field) const;
 };
 
 /// Soft lines and the rings of the cutline get additional vertices where the raster differs from a straight segment by
-/// more than `tolerance`. The graph contains the parts of breaklines within the cutline. Fails as place_breaklines()
-/// and the field's source do, and with kInput if the cutline is known to contain no surface. `shared_rows`: for a field
+/// more than `tolerance`. The graph contains the parts of breaklines within the cutline. Fails if place_breaklines() or
+/// the field's source fails, and with kInput if the cutline is known to contain no surface. `shared_rows`: for a field
 /// with a source, the rows of samples that strips share and at which lines are cut. Samples near lines are read first.
 /// REQUIRES: the field is no larger than the lattice; tolerance >= 0; lines and cutline in the same coordinates.
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
@@ -45,7 +45,7 @@ inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints&
   return line_bytes(field, lines.lines, lines.affine);
 }
 
-/// Bytes of FieldLines::samples, if lines may edit samples in memory or a cutline masks them.
+/// Bytes of FieldLines::samples, which is used if lines may edit samples in memory or a cutline masks them.
 std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
 
 }  // namespace scarp

@@ -39,7 +39,7 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
   samples.begins_.assign(static_cast<std::size_t>(field.rows) + 1, 0);
   for (const Run& run : samples.runs_) ++samples.begins_[static_cast<std::size_t>(run.row) + 1];
   for (std::size_t row = 1; row < samples.begins_.size(); ++row) samples.begins_[row] += samples.begins_[row - 1];
-  // Whole rows suit sources; only wide gaps are omitted.
+  // Sources read whole rows fast, so only wide gaps are omitted.
   std::vector<float> row(static_cast<std::size_t>(field.cols));
   for (std::size_t i = 0; i < samples.runs_.size();) {
     const std::int32_t at = samples.runs_[i].row, first = samples.runs_[i].col;
@@ -65,7 +65,7 @@ void LineSamples::mark(const Segment& segment) {
   const auto row_of = [](double y) { return static_cast<std::int32_t>(std::floor(y / kSteps)); };
   const double height = static_cast<double>(q.y) - p.y,
                slope = height > 0 ? (static_cast<double>(q.x) - p.x) / height : 0;
-  // By rows of cells, plus one above and below: those share a row of samples.
+  // Row by row of cells, including one above and one below that share a row of samples.
   for (std::int32_t row = std::max(row_of(p.y), -1); row <= std::min(row_of(q.y), rows()); ++row) {
     const double top = std::max<double>(p.y, kSteps * row), bottom = std::min<double>(q.y, kSteps * (row + 1.0));
     const double from = height > 0 ? p.x + slope * (top - p.y) : p.x,

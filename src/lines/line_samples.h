@@ -20,8 +20,8 @@ class LineSamples {
   explicit LineSamples(const Raster& raster) : raster_(raster) {}
 
   /// Reads the samples of the cells that lattice segments cross, and of the cells around them, from the top down.
-  /// Segments may end outside the raster, by some samples. Fails as the field does. Memory: 4 bytes per sample, 24 for
-  /// each row that a line crosses, 8 for each row of the raster.
+  /// Segments may extend some samples beyond the raster. Fails if the field's source fails. Memory: 4 bytes per sample,
+  /// 24 for each row that a line crosses, 8 for each row of the raster.
   static Result<LineSamples> read(const HeightField& field, std::span<const Segment> near);
 
   std::int32_t cols() const { return raster_.cols; }
@@ -36,8 +36,8 @@ class LineSamples {
   /// Changes the height of a sample near a line, unless it is nodata. Returns the old height. REQUIRES: read().
   float change(Point p, float height);
 
-  /// The part of the surface's outline near lines of which both sides are known, without the sides of the raster.
-  /// REQUIRES: read().
+  /// The part of the surface's outline that is near lines and has known cells on both sides. Excludes the sides of the
+  /// raster. REQUIRES: read().
   std::vector<Segment> outline_near() const;
 
   std::uint64_t bytes() const { return sizeof(float) * heights_.size() + sizeof(Run) * runs_.size(); }

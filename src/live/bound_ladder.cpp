@@ -11,8 +11,8 @@ constexpr std::int64_t kRungs = 4;  // to a factor of 2
 
 std::int64_t divide_down(std::int64_t value, std::int64_t by) { return value / by - (value % by < 0 ? 1 : 0); }
 
-/// 2^(part / (kRungs · steps)). Square roots and products are the same on every machine, as those of a library's exp2()
-/// are not. REQUIRES: `steps` is a power of two.
+/// 2^(part / (kRungs · steps)). Square roots and products are the same on every machine, unlike the results of a
+/// library's exp2(). REQUIRES: `steps` is a power of two.
 double bound_at(std::int64_t part, std::int64_t steps) {
   std::int64_t whole = kRungs * steps;
   const std::int64_t power = divide_down(part, whole);
@@ -54,9 +54,9 @@ CellBounds BoundLadder::bounds_of(SampleAt cell, std::int64_t level) const {
   return {bound(0), {bound(1), bound(2), bound(3), bound(4)}};
 }
 
-/// Steps that are too short cost little, since no cell is made twice on the way. So they begin as those for counts that
-/// a rung halves, and double until the budget lies between two levels. Levels come from sums, products and quotients of
-/// doubles alone, which are the same on every machine.
+/// Steps that are too short cost little, since no cell is made twice on the way. So the first steps are those for
+/// counts that a rung halves; later steps double until the budget lies between two levels. Levels are computed only
+/// from sums, products and quotients of doubles, which are the same on every machine.
 std::int64_t LevelSearch::estimate(std::int64_t level, double surplus) const {
   const auto step = static_cast<double>(ladder_.step()), budget = static_cast<double>(budget_);
   const double growth = over_ && within_ ? 1 : std::ldexp(1, std::clamp(tries_ - 2, 0, 10));
@@ -68,7 +68,8 @@ std::int64_t LevelSearch::estimate(std::int64_t level, double surplus) const {
 std::optional<std::int64_t> LevelSearch::next(std::int64_t level, std::uint64_t triangles, bool can_be_finer,
                                               bool can_be_coarser) {
   constexpr int kMostTries = 24, kEstimates = 8;
-  // A search that moves continues to the middle of the range, so that the next change seldom needs one.
+  // A search that changes the level continues to the middle of the range, so that the next change seldom needs a
+  // search.
   const std::uint64_t spare = tries_ > 0 ? budget_ / 200 : 0;
   if (tries_++ > 0) least_ = enough(budget_) + spare;
   if (triangles <= budget_ && (!found_ || level < *found_)) found_ = level;

@@ -17,8 +17,8 @@ struct CellBounds {
   std::array<double, 4> borders = {};
 };
 
-/// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one and in
-/// 16 small steps, a level each: at most one cell stands between two rungs. So two cells differ by one rung at most,
+/// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one, in 16
+/// small steps of one level each. At most one cell stands between two rungs. So two cells differ by one rung at most,
 /// and a cell that climbs changes one or two of its neighbours: borders have the smaller bound of their two cells. No
 /// bound is below the field's max error.
 class BoundLadder {
@@ -41,7 +41,8 @@ class BoundLadder {
  private:
   static constexpr std::int64_t kSmallSteps = 16, kRange = 600;
 
-  /// Small steps up to the cell, and to the lower one of it and each neighbour: top, bottom, left, right.
+  /// Heights on the ladder in small steps: of the cell, and of the lower one of the cell and each neighbour (top,
+  /// bottom, left, right).
   std::array<std::int64_t, 5> heights_of(SampleAt cell, std::int64_t level) const;
 
   CellLattice lattice_;
@@ -50,21 +51,21 @@ class BoundLadder {
   std::int64_t slots_;
 };
 
-/// The triangles that use a budget: 98 %.
+/// The number of triangles that counts as using a budget: 98 % of it.
 inline std::uint64_t enough(std::uint64_t budget) { return budget - budget / 50; }
 
-/// The search for a level whose mesh has at least 98 % of a budget and not more than all of it.
+/// The search for a level whose mesh has at least 98 % of the triangles of a budget and not more than all of them.
 class LevelSearch {
  public:
-  /// `least`: a mesh of so many triangles needs no search.
+  /// `least`: a mesh with at least this many triangles needs no search.
   LevelSearch(const BoundLadder& ladder, std::uint64_t budget, std::uint64_t least)
       : ladder_(ladder), budget_(budget), least_(least) {}
 
-  /// The next level to try, or none: the search ended. `triangles`: of the mesh at `level`; whether another level can
-  /// change it.
+  /// The next level to try; none if the search has ended. `triangles`: those of the mesh at `level`. The flags: whether
+  /// another level can change it.
   std::optional<std::int64_t> next(std::int64_t level, std::uint64_t triangles, bool can_be_finer, bool can_be_coarser);
-  /// The level where it ended: in the range, else the lowest one that was tried and keeps the budget; none if none
-  /// does.
+  /// The level where the search ended: in the range, else the lowest level tried that is within the budget; none if
+  /// there is no such level.
   std::optional<std::int64_t> found() const { return found_; }
 
  private:

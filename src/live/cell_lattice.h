@@ -13,13 +13,13 @@ namespace scarp::live {
 /// samples on their border.
 class CellLattice {
  public:
-  /// `cols`, `rows`: of the field.
+  /// `cols`, `rows`: the size of the field.
   CellLattice(std::int32_t side, std::int32_t cols, std::int32_t rows)
       : side_(side), slot_cols_((cols - 2) / side + 2), slot_rows_((rows - 2) / side + 2) {}
 
   std::int32_t side() const { return side_; }
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slot_cols_ * slot_rows_); }
-  /// No two cells of a field have the same, wherever it lies.
+  /// No two cells of a field have the same slot, wherever the field lies.
   std::uint32_t slot_of(SampleAt cell) const {
     return static_cast<std::uint32_t>(modulo(cell.row, slot_rows_) * slot_cols_ + modulo(cell.col, slot_cols_));
   }
@@ -30,7 +30,7 @@ class CellLattice {
   }
   /// Cells that share more than a border with the field, row by row.
   std::vector<SampleAt> cells_of(const Area& field) const { return list(within(field)); }
-  /// Those of them that have a sample of an area.
+  /// The cells of `field` that have a sample of the area `samples`.
   std::vector<SampleAt> cells_with(const Area& samples, const Area& field) const {
     const Area with{divide_down(samples.west - 1), divide_down(samples.north - 1), divide_down(samples.east),
                     divide_down(samples.south)};

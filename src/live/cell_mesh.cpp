@@ -18,7 +18,8 @@ namespace {
 /// The samples along a border, and along the rows or columns on either side of it.
 class BorderRows {
  public:
-  /// `first`: index of the border's first sample; `step`: to the next one; `across`: to the other side.
+  /// `first`: index of the border's first sample; `step`: index step to the next sample; `across`: index step across
+  /// the border.
   BorderRows(const CellSamples& samples, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t across,
              std::int32_t count)
       : channels_(samples.channels.size()) {
@@ -37,7 +38,8 @@ class BorderRows {
     }
   }
 
-  /// Fewest vertices between those that both cells need where voids begin or end next to the border.
+  /// The fewest vertices for the border. Where voids begin or end next to it, both cells need a vertex; these are kept,
+  /// and the parts between them are simplified.
   std::vector<std::int32_t> simplify(double tolerance, const CellRules& rules) {
     if (rules.has_budget)
       tolerance = std::max(tolerance,
@@ -63,7 +65,7 @@ class BorderRows {
   }
 
  private:
-  /// An outline of voids may leave the border there.
+  /// True if an outline of voids may leave the border at sample k.
   bool is_corner(std::size_t k) const {
     return !std::isnan(heights_[k]) && std::any_of(valid_.begin(), valid_.end(), [k](const auto& valid) {
       return valid[k - 1] != valid[k] || valid[k] != valid[k + 1];
@@ -99,7 +101,7 @@ std::vector<float> crop(std::span<const float> grown, std::int32_t cols, std::in
   return values;
 }
 
-/// True if three samples of a grid cell are valid somewhere.
+/// True if a grid cell has three valid samples.
 bool has_surface(std::span<const float> heights, std::int32_t cols, std::int32_t rows) {
   for (std::int32_t row = 0; row + 1 < rows; ++row) {
     const float* const upper = &heights[std::size_t(row) * std::size_t(cols)];

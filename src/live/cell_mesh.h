@@ -1,7 +1,7 @@
 // The mesh of one cell: a pure function of the samples in it and of the validity of those around it.
 //
 //     ●──────●───────●      ● corners and vertices of the borders' lines, which depend on samples that both cells have
-//     │  cell    cell │     · a void next to the border: its corners on the border are vertices for both cells
+//     │  cell    cell │     · a void next to the border: its corners on the border are vertices of both cells
 //     ●───·●─●───────●
 //     │    ··    cell │
 //     ●──────●───────●
@@ -38,7 +38,7 @@ struct CellRules {
 /// The largest possible norm of the samples.
 double find_reach(const CellSamples& samples, const CellRules& rules);
 /// A quarter of the step between float32 values of that size: a smaller bound would change little, or could not be
-/// kept.
+/// satisfied.
 inline double finest_bound(double reach) { return reach * 0x1p-26; }
 
 /// `place`: the first sample of the whole cell, which the field may clip. Slot and version are not set. Fails as

@@ -12,7 +12,7 @@
 namespace scarp::live {
 
 Result<void> check_field(const HeightField& field, const LiveOptions& options, std::span<const float> tolerances);
-/// `heights`: how many.
+/// `heights`: the number of heights.
 Result<void> check_window(const LiveWindow& window, const FieldSamples& samples, std::size_t heights,
                           std::span<const float> tolerances, std::span<const std::span<const float>> channels);
 Result<void> check_scroll(const Area& area, int cols, int rows);

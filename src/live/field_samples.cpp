@@ -89,7 +89,7 @@ std::vector<Patch> FieldSamples::move(const Area& to) {
   for (const Area& part : area_.beyond(to)) {
     if (!part.is_empty()) left.push_back(read(part));
   }
-  // Samples that enter are stored where those that leave were.
+  // Samples that enter are stored in the places of those that leave.
   for (const Patch& patch : left) {
     for (SampleRing& ring : rings_) ring.clear(patch.area);
   }

@@ -1,4 +1,4 @@
-// The samples of a field that moves: heights, tolerances and channels, a layer each.
+// The samples of a field that moves: heights, tolerances and channels, one layer each.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace scarp::live {
 
-/// Samples of an area, by layer and row by row; an empty layer is not part of it.
+/// Samples of an area, by layer and row by row; an empty layer is not part of the patch.
 struct Patch {
   Area area;
   std::vector<std::vector<float>> layers;
@@ -30,16 +30,16 @@ class FieldSamples {
   std::size_t channel(std::size_t k) const { return (has_tolerances_ ? 2 : 1) + k; }
   std::size_t channel_count() const { return layer_count() - channel(0); }
 
-  /// Those outside the field are voids, without a tolerance, with channels of 0.
+  /// The samples of an area. Those outside the field are voids without a tolerance, with channels of 0.
   Patch read(const Area& area) const;
-  /// The samples that a patch changes, and the neighbours of those that it makes valid or void.
+  /// The area of the samples that a patch changes, and of the neighbours of samples that become valid or void.
   Area find_changes(const Patch& patch) const;
   /// Fails with kInput if a height of the patch lacks a channel.
   Result<void> check(const Patch& patch) const;
-  /// The patch then holds the samples of before.
+  /// The patch then holds the field's earlier samples.
   void swap(Patch& patch);
 
-  /// Moves the field to another area of its size, and returns the samples that it then no longer has.
+  /// Moves the field to another area of its size, and returns the samples that are no longer in it.
   std::vector<Patch> move(const Area& to);
   void move_back(const Area& to, const std::vector<Patch>& left);
 

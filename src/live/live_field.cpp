@@ -1,5 +1,5 @@
-// A change in three steps: samples, cells made of them, and only then, in one go, what readers see. If a cell cannot be
-// made, the samples are put back.
+// A change has three steps: it writes samples, makes cells from them, and only then replaces, all at once, the state
+// that readers see. If a cell cannot be made, the samples are restored.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,13 +42,13 @@ Area area_of(SampleAt place, int cols, int rows) {
   return {place.col, place.row, place.col + cols - 1, place.row + rows - 1};
 }
 
-/// bench/performance.md, "Live fields".
+/// See bench/performance.md, "Live fields".
 int side_of(const LiveOptions& options) {
   if (options.cell != 0) return options.cell;
   return options.effort == Effort::kFast ? 32 : 64;
 }
 
-/// Start of the search for a budget: coarse, since a fine mesh costs more.
+/// Start of the search for a budget: a coarse level, since a fine mesh costs more.
 std::int64_t first_level(const HeightField& field, const BoundLadder& ladder, double max_error) {
   const HeightRange range = height_range(field);
   constexpr double kParts = 64;
@@ -63,7 +63,7 @@ CellRules rules_of(const HeightField& field, const LiveOptions& options) {
   return rules;
 }
 
-/// Modulo 2^64 where there are fewer than before.
+/// The number of triangles added, modulo 2^64 if there are fewer than before.
 std::uint64_t added_by(const LiveCell& cell, const LiveCell& before) {
   return std::uint64_t{cell.triangle_count()} - before.triangle_count();
 }
@@ -75,7 +75,7 @@ float height_or_void(float height, const std::optional<float>& nodata) {
 }  // namespace
 
 struct LiveField::Impl {
-  /// Cells that another bound can change: with more triangles, with fewer.
+  /// Numbers of cells that another bound can change: to more triangles, to fewer.
   struct Room {
     std::int64_t finer = 0, coarser = 0;
 
@@ -89,9 +89,9 @@ struct LiveField::Impl {
     Area area;
     std::int64_t level = 0;
     std::uint64_t version = 0, triangles = 0;
-    std::uint64_t least = 0;  // triangles that need no search for the budget
+    std::uint64_t least = 0;  // a mesh with this many triangles needs no search for the budget
     Room room;
-    std::vector<std::uint64_t> versions;  // by slot, of its cell
+    std::vector<std::uint64_t> versions;  // by slot: version of its cell
     std::vector<std::shared_ptr<const LiveCell>> cells;
     std::vector<Room> rooms;  // by slot
   };
@@ -150,7 +150,7 @@ struct LiveField::Impl {
     bool is_mine_;
   };
 
-  /// The frame of the field where it lies at `now`.
+  /// The frame of the field at the place `now`.
   Frame frame_of(const Area& now) const {
     Frame moved = frame;
     const auto [x, y] = frame.apply_affine(now.west - options.place.col, now.north - options.place.row);
@@ -185,7 +185,7 @@ struct LiveField::Impl {
     return Made::Cell{std::make_shared<LiveCell>(std::move(made)), room};
   }
 
-  /// Makes cells at the level of `made`, which then has them.
+  /// Makes cells at the level of `made` and stores them there.
   Result<void> make_cells(const std::vector<SampleAt>& dirty, Made& made) const {
     std::vector<Result<Made::Cell>> cells(dirty.size());
     parallel_for(dirty.size(), options.threads, [&](std::size_t k) { cells[k] = make_cell(dirty[k], made.level); });
@@ -196,7 +196,7 @@ struct LiveField::Impl {
     return {};
   }
 
-  /// Triangles of the field once it has these cells, and their room.
+  /// The number of triangles of the field with the new cells, and the room of all its cells.
   std::pair<std::uint64_t, Room> count(const Made& made) const {
     return shown.with([&](const Shown& now) {
       std::pair counts(now.triangles, now.room);
@@ -208,8 +208,8 @@ struct LiveField::Impl {
     });
   }
 
-  /// Moves to a level that keeps the budget, and makes the cells whose bounds it changes. `dirty`: cells whose samples
-  /// changed, which `made` has.
+  /// Changes to a level within the budget, and makes the cells whose bounds this changes. `dirty`: cells whose samples
+  /// changed; `made` already has them.
   Result<void> keep_budget(const std::vector<SampleAt>& dirty, Made& made) const {
     if (!options.max_triangles) return {};
     const std::int64_t before = made.level;
@@ -240,7 +240,7 @@ struct LiveField::Impl {
       made.level = *next;
       const Result<void> tried = make_cells(moved, made);
       if (!tried && !search.found()) return tried;
-      if (!tried) break;  // a bound that arithmetic cannot keep
+      if (!tried) break;  // the arithmetic cannot satisfy the bound
     }
     if (search.found() != made.level) made = std::move(found);
     made.least = enough(budget);
@@ -257,7 +257,7 @@ struct LiveField::Impl {
     return {};
   }
 
-  /// Slots of no cell any more become empty.
+  /// Empties the slots that no longer have a cell.
   void add_emptied(Made& made) const {
     std::vector<bool> is_used(lattice.slot_count());
     for (const SampleAt cell : lattice.cells_of(samples.area())) is_used[lattice.slot_of(cell)] = true;
@@ -330,7 +330,7 @@ struct LiveField::Impl {
     return finish(lattice.cells_with(changed, samples.area()), false, [&] { samples.swap(patch); });
   }
 
-  /// Cells whose area, or what their borders read around it, is cut differently.
+  /// Cells for which the field now clips the area, or the samples that borders read around it, differently.
   std::vector<SampleAt> list_recut(const Area& before) const {
     std::vector<SampleAt> recut;
     for (const SampleAt cell : lattice.cells_of(samples.area())) {
@@ -348,7 +348,7 @@ struct LiveField::Impl {
   }
 
   const LiveOptions options;
-  const Frame frame;  // the field's when it was made
+  const Frame frame;  // the field's frame when it was made
   const std::optional<float> nodata;
   const CellRules rules;
   const CellLattice lattice;

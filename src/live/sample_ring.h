@@ -1,4 +1,4 @@
-// The samples of a field that moves: a torus, so that what stays is not copied.
+// The samples of a field that moves, stored as a torus, so that samples that stay are not copied.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace scarp::live {
 
-/// A rectangle on the lattice of places, with its last column and row.
+/// A rectangle on the lattice of places; its last column and row are included.
 struct Area {
   std::int32_t west = 0, north = 0, east = -1, south = -1;
 
@@ -42,7 +42,7 @@ class SampleRing {
   SampleRing(std::int32_t cols, std::int32_t rows, float missing)
       : cols_(cols), rows_(rows), missing_(missing), values_(std::size_t(cols) * std::size_t(rows), missing) {}
 
-  /// Writes the values of an area, row by row; those outside `field` are missing.
+  /// Writes the values of an area, row by row; samples outside `field` have the value for missing ones.
   void read(const Area& area, const Area& field, float* out) const;
   /// REQUIRES: the area has no more columns and rows than the ring.
   void write(const Area& area, std::span<const float> values);

@@ -11,12 +11,12 @@ namespace scarp::live {
 
 namespace {
 
-/// Ids of the vertices on borders of cells, by the sample that they are.
+/// Ids of the vertices on borders of cells, by sample.
 class BorderVertices {
  public:
   explicit BorderVertices(std::int32_t side) : side_(side) {}
 
-  /// The vertex at a place if there is one; else `id`, which it then is.
+  /// The vertex at a place on a border, if there is one; else `id`, which is stored for that place.
   std::uint32_t find(double col, double row, std::uint32_t id) {
     if (std::fmod(col, side_) != 0 && std::fmod(row, side_) != 0) return id;
     const auto key = std::uint64_t{static_cast<std::uint32_t>(static_cast<std::int32_t>(col))} << 32 |

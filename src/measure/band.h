@@ -29,7 +29,7 @@ struct TriangleOffender {
   Offender offender;
 };
 
-/// Orders by triangle, then the worst first; ties by the lowest row, then column.
+/// Orders by triangle, then by decreasing error; ties by the lowest row, then column.
 inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffender& b) {
   if (a.triangle != b.triangle) return a.triangle < b.triangle;
   const double x = std::abs(a.offender.error), y = std::abs(b.offender.error);
@@ -37,14 +37,14 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
   return a.offender.row != b.offender.row ? a.offender.row < b.offender.row : a.offender.col < b.offender.col;
 }
 
-/// The findings of one band about the mesh. They depend on the band only.
+/// The findings of one band about the mesh. They depend only on the band.
 struct BandReport {
   std::vector<RowSums> rows;
   double largest = -1;                             ///< |error|; −1 without samples
   std::array<std::int32_t, 2> largest_at{-1, -1};  ///< ties by the lowest row, then column
   HeightRange heights;
   std::uint64_t uncovered = 0, stray = 0, cut_off = 0, nodata_cells_covered = 0;
-  std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
+  std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first uncovered sample
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
   std::uint64_t over_tolerance = 0;
@@ -70,8 +70,8 @@ class Band {
   static int rows_per_band(int cols) { return cols <= 4096 ? kMostRows : std::max(8, kMostRows * 4096 / cols); }
 
   /// Reads the rows; samples that need not be covered (nodata, stray or cut off) become NaN. Finds the cells that must
-  /// not be covered. Errors are counted in `histogram`, which must outlive the band. Fails as the sources of the field
-  /// and of the limits do.
+  /// not be covered. Errors are counted in `histogram`, which must outlive the band. Fails if the source of the field
+  /// or of the limits fails.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
                            Histogram& histogram);
 
@@ -82,7 +82,7 @@ class Band {
   double* errors(int row) { return all_errors_ + std::ptrdiff_t{row - first_} * stride_; }
   BandRows rows() { return {heights(first_), all_errors_, cols_, stride_, first_, is_whole_}; }
 
-  /// Replaces the error `held` for a sample of errors() if `error` is larger, or equal and positive.
+  /// Replaces the error `held` of a sample if `error` is larger in magnitude, or equal in magnitude and positive.
   void offer(double& held, double error) {
     const double now = std::abs(error), before = std::abs(held);
     if (now < before || (now == before && !(error > held))) return;  // false for the NaN of a sample not covered yet
@@ -94,7 +94,7 @@ class Band {
     const double limit = lesser(largest_, least_limit_);
     return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
   }
-  /// True if an error of about this size may become the band's largest or exceed a bound: its last bit matters.
+  /// True if an error of about this size may become the band's largest or exceed a bound, so that its last bit matters.
   bool is_critical(int col, int row, double error) const {
     const double magnitude = std::abs(error);
     const double upper = magnitude + (guard_ + kRounding * magnitude);
@@ -108,22 +108,23 @@ class Band {
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
   /// Sums up the rows that are completely covered. Returns true if a sample that must be covered is uncovered. Also
-  /// cuts off uncovered samples near the edge of the region. Called once.
+  /// drops uncovered samples near the edge of the region. Called once.
   bool find_missing();
   /// The same for one row, after find_missing().
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
-  /// Offers a triangle at some distance to a missing sample, which accepts the nearest one; a tie: the larger error.
+  /// Offers a triangle at some distance to a missing sample, which accepts the nearest triangle; for ties, the larger
+  /// error.
   void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
 
   // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
   bool has_nodata_cells() const { return has_nodata_cells_; }
   bool row_has_nodata_cells(int row) const { return row_nodata_cells_[static_cast<std::size_t>(row - first_)] != 0; }
-  /// A point to test whether the nodata part of the cell is covered; nothing if the cell is whole or already counted.
+  /// The point that is tested for coverage of the cell's nodata part; nothing if the cell is whole or already counted.
   std::optional<std::array<double, 2>> nodata_point(int col, int row) const;
   void count_nodata_cell(int col, int row);
 
-  /// Sums up the remaining rows. Ends the use of the band.
+  /// Sums up the remaining rows. The band must not be used afterwards.
   BandReport finish(Keep keep);
 
  private:
@@ -134,7 +135,7 @@ class Band {
   void note_range(const std::vector<RowHeights>& rows, int top);
 
   struct Nearest {
-    double distance = -1;  ///< −1: not missing; infinite: no triangle near yet
+    double distance = -1;  ///< −1: not missing; infinite: no near triangle yet
     std::uint32_t triangle = 0;
   };
   static constexpr std::uint8_t kWhole = 0, kNodata = 1, kHalf = 2, kCounted = 6;  // kHalf + missing corner
@@ -177,7 +178,7 @@ class Band {
   Histogram& histogram_;
   Array<float> heights_;                // empty if borrowed from the field
   const float* all_heights_ = nullptr;  // starts at the row above
-  std::vector<std::int32_t> valid_;     // by row, from the row above on: number of remaining heights
+  std::vector<std::int32_t> valid_;     // number of remaining heights by row, from the row above on
   std::vector<float> tolerances_;       // empty unless a source provides them
   Array<double> errors_;
   double* all_errors_ = nullptr;  // in errors_: rows of stride_, each aligned to a cache line

@@ -83,7 +83,7 @@ bool CutRegion::is_near(double x, double y, double distance) const {
   });
 }
 
-/// Fills the row between each two crossings with the rings of a polygon.
+/// Fills the row between successive pairs of crossings with a polygon's rings.
 void CutRegion::mark_inside(int row, Place* places) const {
   const std::vector<Segment>& segments = segments_at(row);
   std::vector<double> crossings;

@@ -12,8 +12,8 @@
 
 namespace scarp::judge {
 
-/// A bucket of the histogram holds the |error| whose float32 share the leading bits: 2^12 per power of two, so a
-/// bucket's ends differ by at most 0.025 %.
+/// A bucket of the histogram counts the errors with the same leading bits of |error| as float32. There are 2^12 buckets
+/// per power of two, so a bucket's ends differ by at most 0.025 %.
 constexpr int kBucketShift = 11;
 
 /// Buckets of the errors of a row, as returned by the kernels.
@@ -29,8 +29,8 @@ class Histogram {
  public:
   void add(const Buckets& buckets);
   void merge(const Histogram& other);
-  /// For each of the ascending `permilles`: the upper end of the bucket of the `permille`·n/1000-th smallest value; 0
-  /// if nothing was counted.
+  /// For each of the ascending `permilles`: the upper end of the bucket that contains the `permille`·n/1000-th smallest
+  /// value; 0 if nothing was counted.
   template <std::size_t kCount>
   std::array<double, kCount> percentiles(const std::array<unsigned, kCount>& permilles) const {
     std::array<double, kCount> found{};
@@ -55,7 +55,7 @@ class Histogram {
   void make_page(std::uint32_t index);
   void make_first_pages(std::uint32_t index);
   void carry();
-  /// The count in counts_ and small_.
+  /// The bucket's count, from counts_ and small_.
   std::uint32_t recent_in(std::size_t at) const { return counts_[at] + (at < dense_size_ ? small_[at] : 0u); }
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
@@ -85,7 +85,7 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// Sums of one row. Each is computed in kSumParts parts, by column, added up by sum_of_parts().
+/// Sums of one row. Each sum has kSumParts parts, by column, which sum_of_parts() adds up.
 struct RowSums {
   std::uint64_t samples = 0;
   double error = 0, magnitude = 0, square = 0;
@@ -101,7 +101,7 @@ constexpr std::size_t kSumParts = 8;
 /// Sums up the errors that are not NaN, with the kernels in use. Returns their buckets, stored in `room`.
 RowSums sum_row(std::span<const double> errors, Array<std::uint32_t>& room, Buckets& buckets);
 
-/// Sets p50 … p999 of the counted errors, none above the max error in `result`.
+/// Sets p50 … p999 of the counted errors, each at most the max error in `result`.
 void set_percentiles(const Histogram& histogram, Measurement& result);
 
 }  // namespace scarp::judge

@@ -11,8 +11,8 @@ namespace scarp::judge {
 /// Sums up rows from the top.
 class ErrorWeigher {
  public:
-  /// An error plus `reserve` (for the rounding of samples) minus `allowance` counts as above `bound` if it exceeds
-  /// `bound` by more than a factor of 1 + 2^-23, because the judge returns errors as float32.
+  /// An error counts as above `bound` if error + `reserve` (for the rounding of samples) − `allowance` exceeds `bound`
+  /// by more than a factor of 1 + 2^-23. The factor covers the rounding of errors to float32.
   ErrorWeigher(double bound, double reserve, double allowance);
 
   struct Row {

@@ -12,7 +12,7 @@ namespace scarp::judge {
 double settle_error(const std::array<double, 3>& w, const std::array<double, 3>& z, double sample);
 
 /// Error of a sample at (x, y) outside the facet but near it, measured on the facet's extrapolated plane. The plane of
-/// a facet thinner than `tolerance` is meaningless, so its nearest point is used instead.
+/// a facet thinner than `tolerance` is meaningless, so the facet's nearest point is used instead.
 double error_beside(const Facet& facet, double x, double y, double sample, double tolerance);
 
 }  // namespace scarp::judge

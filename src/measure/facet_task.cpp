@@ -5,7 +5,8 @@
 namespace scarp::judge {
 namespace {
 
-/// Up to this size, facets on the lattice of 256ths have weights of at most 45 bits, and a slack below a weight's step.
+/// Up to this size, facets on the lattice of 256ths have weights of at most 45 bits, and a slack smaller than a
+/// weight's step.
 constexpr double kMostExact = 2048;
 /// Largest column for exact spans. In a row, a side of such a facet is either on a sample or at least 2^-27 of a column
 /// away from all. In smaller columns, the margin plus the rounding is less than half of that distance.

@@ -1,4 +1,4 @@
-// The data of a triangle in a band that a kernel needs.
+// The data that a kernel needs about a triangle in a band.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace scarp::judge {
 
-/// Integers in [lo, hi] and [least, most]; first > second if none.
+/// Integers in [lo, hi] and [least, most]; first > second if there are none.
 inline std::pair<int, int> whole_between(double lo, double hi, int least, int most) {
   return {static_cast<int>(lesser(greater(std::ceil(lo), least), most + 1.0)),
           static_cast<int>(lesser(greater(std::floor(hi), least - 1.0), most))};

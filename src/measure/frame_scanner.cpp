@@ -71,8 +71,8 @@ class FrameScanner : public Scanner {
   }
 
  private:
-  /// The bounds of the field, from its border and some lines across it, with a margin. Triangles outside cost nothing.
-  /// The triangles of samples outside are still found, but slowly.
+  /// The bounds of the field, from its border and some lines across it, with a margin. Triangles outside the bounds
+  /// cost nothing. Triangles over samples outside the bounds are still found, but slowly.
   Box bounds(const HeightField& field) const {
     std::vector<double> cols, rows;
     const double last_col = field.cols - 1, last_row = field.rows - 1;
@@ -95,7 +95,7 @@ class FrameScanner : public Scanner {
     return {box.x0 - margin_x, box.y0 - margin_y, box.x1 + margin_x, box.y1 + margin_y};
   }
 
-  /// Positions of grid points; NaN without an image.
+  /// Positions of grid points; NaN if the frame cannot map a point.
   void locate(const std::vector<double>& cols, const std::vector<double>& rows, double col_shift, double row_shift,
               Points& points) const {
     points.x.resize(cols.size());
@@ -147,7 +147,7 @@ class FrameScanner : public Scanner {
     }
   }
 
-  /// The local frames of grid points; NaN without an image, or if singular.
+  /// The local frames of grid points; NaN if a point cannot be mapped or its frame is singular.
   std::vector<LocalFrame> local_frames(const std::vector<double>& cols, const std::vector<double>& rows) const {
     Points here, right, down;
     locate(cols, rows, 0, 0, here);

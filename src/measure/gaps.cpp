@@ -147,7 +147,7 @@ struct Doubt {
   Point at;  ///< in the grid
 };
 
-/// Marks the edges of the doubts that no triangle covers.
+/// Marks the edges of doubts whose points no triangle covers.
 void settle(const HeightField& field, const Mesh& mesh, const std::vector<Doubt>& doubts, std::vector<bool>& is_gap) {
   std::vector<double> x, y;
   for (const Doubt& doubt : doubts) {

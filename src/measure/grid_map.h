@@ -11,8 +11,8 @@ namespace scarp::judge {
 
 /// The inverse of an affine frame in plain double arithmetic, the same on all machines. A coordinate is snapped to an
 /// integer, or to a multiple of 1/256, if rounding may have moved it that far. Rounding is estimated as four units in
-/// the last place of the vertex's source coordinates (frame, origin and vertex), in samples, plus the loss of the
-/// inverse itself.
+/// the last place of the vertex's source coordinates (frame, origin and vertex), converted to samples, plus the
+/// rounding of the inverse itself.
 class GridMap {
  public:
   static constexpr double kSteps = 256;

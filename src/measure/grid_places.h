@@ -19,7 +19,7 @@ struct FacetCorner {
   double x, y, z;
 };
 
-/// Corners by vertex. They use half the memory if vertices lie on samples, or near samples on the lattice of fitting.
+/// Corners by vertex. They use half the memory if all vertices lie on GridMap's lattice.
 class FacetCorners {
  public:
   /// x and y in steps of the GridMap's lattice.

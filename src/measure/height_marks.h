@@ -13,8 +13,8 @@
 
 namespace scarp::judge {
 
-/// Reads the field by squares of 4 KB and caches some hundred of them, so queries along a line read each square once.
-/// After a failure of the field's source, no sample is a height, and failure() returns the reason.
+/// Reads the field in squares with marks of 4 KB, and caches some hundred squares. So queries along a line read each
+/// square once. After a failure of the field's source, no sample is a height, and failure() returns the reason.
 class HeightMarks {
  public:
   explicit HeightMarks(const HeightField& field) : field_(field), squares_(kSquares) {}
@@ -31,8 +31,8 @@ class HeightMarks {
 
  private:
   static constexpr int kSide = 64;
-  static constexpr std::int64_t kSquares = 512, kSquaresAcross = 37;  // not multiples of each other, so that columns
-                                                                      // spread too
+  static constexpr std::int64_t kSquares = 512, kSquaresAcross = 37;  // neither is a multiple of the other, so that
+                                                                      // columns spread too
   struct Square {
     std::int64_t x = -1, y = -1;
     std::vector<std::uint8_t> marks;

@@ -19,7 +19,7 @@ double turn(const Spot& a, const Spot& b, const Spot& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// All spots except those well inside the octagon of the outermost spots, which cannot be corners of the hull.
+/// Omits spots that cannot be corners of the hull, since they are well inside the octagon of the outermost spots.
 template <class SpotOf>
 std::vector<Spot> find_outer(std::size_t count, const SpotOf& spot) {
   constexpr std::array<std::array<double, 2>, 8> kWays{

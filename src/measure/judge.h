@@ -1,7 +1,7 @@
-// Judging a mesh by heights, channels, masks, tolerances and ignored samples.
+// Judges a mesh by heights, channels, masks, tolerances and ignored samples.
 //
-// measure() returns the distance of a mesh from the heights. judge_mesh() checks the bound of simplify() with a mask,
-// tolerances, a script or channels. Like measure() it is independent of how the mesh was built.
+// measure() returns the distance of a mesh from the heights. judge_mesh() also checks the bound of simplify() with a
+// mask, tolerances, a script or channels. Both are independent of how the mesh was built.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ struct LargestError {
   std::array<std::int32_t, 2> at{-1, -1};
 };
 
-/// Errors compared with a bound: of heights or norms, weighted by a mask or tolerances. The errors are rounded to
-/// float32.
+/// Errors of heights, or norms, that are weighted by a mask or tolerances and compared with a bound. They are rounded
+/// to float32.
 struct WeighedErrors {
   LargestError largest;    ///< over all judged samples, without HeightField::sample_rounding
   LargestError bounded;    ///< over the judged samples with a bound
@@ -56,7 +56,7 @@ struct JudgeOptions {
   Norm norm = Norm::kSum;
   const Cutline* cutline = nullptr;  ///< Like MeasureOptions::cutline. Borrowed.
   bool topology = true;              ///< like MeasureOptions::topology
-  /// False: omits Judgement::combined and weighted, and Judgement::ignored where bounds are read in windows. Saves a
+  /// False: omits Judgement::combined and weighted, and Judgement::ignored if bounds are read in windows. This saves a
   /// pass over the bounds, and the memory of errors. DEFAULT: true.
   bool weigh = true;
   bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
@@ -83,11 +83,11 @@ struct Judgement {
 /// 2⁻²³ of the bound because errors are float32.
 ///
 /// `mesh` has as many channels as `field`, with values in Mesh::channels. Borrows its arguments for the call. Reads a
-/// field with a source, and sources of weights and tolerances, in bands of rows; reads twice if errors are above their
-/// bound. Fails with kUsage if weights or tolerances do not have the field's size, or both are given; if max_error is
-/// below 0; if the numbers of channels differ; if a field with a source has channels, or an array of weights or
-/// tolerances; for channels with a frame in space; and for an ignored sample outside the raster. Also fails as
-/// measure() and the sources do. Memory: as measure(), plus 4 bytes per sample with weights, an array of tolerances,
+/// field with a source, and sources of weights and tolerances, in bands of rows; reads them twice if errors are above
+/// their bound. Fails with kUsage if weights or tolerances do not have the field's size, or both are given; if
+/// max_error is below 0; if the numbers of channels differ; if a field with a source has channels, or an array of
+/// weights or tolerances; if a field in space has channels; or if an ignored sample is outside the raster. Also fails
+/// if measure() or a source fails. Memory: as measure(), plus 4 bytes per sample with weights, an array of tolerances,
 /// channels or keep_errors; 8 more with channels; 4 more if samples in memory are ignored. Cost: as measure(), once for
 /// the heights and once per channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});

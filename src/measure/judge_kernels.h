@@ -5,7 +5,7 @@
 // error is the same sequence of separately rounded operations everywhere, samples are judged row by row, and sums have
 // eight parts by column for any vector width.
 //
-// The computation for a sample at column c of a row, with the side opposite to corner k from (x, y) along (dx, dy):
+// The computation for a sample at column c of a row; the side opposite to corner k runs from (x, y) along (dx, dy):
 //   weight[k] = dx[k]·(row − y[k]) − dy[k]·(c − x[k])                  at least 0
 //   error     = (Σ weight[k]·(z[k] − sample)) · per_area              in the order of k
 // The sample belongs to the triangle if no weight is below −slack and, in rows with a span, c is in the span:
@@ -21,7 +21,8 @@
 
 namespace scarp::judge {
 
-/// The arrays of a band are readable this far beyond their end, and the array of errors is also writable there.
+/// The arrays of a band are readable for this many elements beyond their end, and the array of errors is writable
+/// there.
 constexpr std::size_t kKernelPadding = 8;
 
 /// Largest number of rows passed to a kernel.
@@ -47,7 +48,7 @@ struct FacetTask {
   /// Weights are computed without rounding: corners are multiples of 1/256, close to each other and to the origin.
   bool is_exact;
   /// Each row's columns end `margin` outside the triangle's sides. For an exact facet these columns are exactly its
-  /// samples, since no outside sample is that close to a side.
+  /// samples, since no sample outside is closer than `margin` to a side.
   bool has_spans;
   double margin;
   std::array<double, 3> per_dy;  ///< 1 / dy, with spans
@@ -75,11 +76,11 @@ struct JudgeKernels {
   /// positive. For errors of caution.watch or more, calls caution.look() instead, in raster order.
   void (*judge_facet)(const FacetTask& facet, const BandRows& band, Caution& caution);
 
-  /// Sums up the errors that are not NaN and returns their buckets, up to kKernelPadding more than there are errors.
-  /// The extra buckets are 0; Buckets::zeros subtracts them.
+  /// Sums up the errors that are not NaN and returns their buckets, with up to kKernelPadding extra buckets. The extra
+  /// buckets are 0; Buckets::zeros subtracts them.
   RowSums (*sum_row)(const double* errors, std::int32_t count, Buckets& buckets);
 
-  /// Copies samples, with missing ones (NaN, infinities, `nodata`) as NaN. Without a nodata value, `nodata` is NaN.
+  /// Copies samples; missing samples (NaN, infinities, `nodata`) become NaN. Without a nodata value, `nodata` is NaN.
   /// `from` and `to` may be equal. Copies nothing if `to` is null.
   RowHeights (*take_row)(const float* from, std::int32_t count, float nodata, float* to);
 };

@@ -1,5 +1,5 @@
-// Samples without a bound are found first and get an infinite limit, others get limit 0, so that measure() reports the
-// largest errors of the others. Then errors are weighed: row by row during judging if bounds are read in windows,
+// Samples without a bound are found first. They get an infinite limit and the others limit 0, so that measure() reports
+// the largest errors of the others. Then errors are weighed: row by row during judging if bounds are read in windows,
 // otherwise all at the end.
 #include <fmt/format.h>
 
@@ -252,7 +252,7 @@ class RowWeigher {
   Result<void> read_;
 };
 
-/// Measures and weighs in one pass. Fails as the sources do.
+/// Measures and weighs in one pass. Fails if a source fails.
 Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& mesh, RowWeigher rows,
                                       MeasureOptions options, std::optional<WeighedErrors>& weighed) {
   options.on_row = [&, keep = options.on_row](int row, std::span<const float> errors) {

@@ -151,7 +151,7 @@ class Verdict {
   std::vector<judge::TriangleOffender> offenders_;
 };
 
-/// The mesh's share in the bound of the rounding error of plain double arithmetic, with a margin.
+/// The mesh's share of the bound on rounding errors of plain double arithmetic, with a margin.
 double error_guard(const Mesh& mesh) {
   double size = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -161,7 +161,7 @@ double error_guard(const Mesh& mesh) {
 }
 
 /// Sets all results about heights. `keep` selects the values for on_row. Fails with kCancelled if the caller stops, and
-/// as the field's source does.
+/// if the field's source fails.
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                            const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
                            ProgressGate& gate, Measurement& result) {
@@ -198,7 +198,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   return {};
 }
 
-/// The triangles judged for heights: all, or the upward ones of a solid.
+/// The triangles judged for heights: all, or a solid's triangles that face up.
 struct Surface {
   std::optional<Array<std::uint32_t>> judged;  ///< ascending; none: all
   judge::Connections connections;              ///< connections, if requested or needed
@@ -243,7 +243,8 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
 /// The mesh to judge on the map. A mesh in space is converted to the map, but its heights are judged in space.
 class Judged {
  public:
-  /// `field` and `mesh` must outlive this. `with_heights`: make_scanner() will be called. Fails as measure().
+  /// `field` and `mesh` must outlive this. `with_heights`: make_scanner() will be called. Fails with the errors of
+  /// measure().
   static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                            bool with_heights = true) {
     Judged judged(field, mesh);

@@ -1,10 +1,9 @@
 // Pairs of triangles that overlap seen from above.
 //
-// Two convex polygons have disjoint interiors exactly if one polygon lies on the far side of a side of the other
-// (separating axis). Pairs are searched in a bucket grid with about two triangles per bucket. A bucket with many
-// triangles (dense relief in a large mesh) gets a nested grid, as long as that helps. Neighbours share corners, bit by
-// bit, so their common side separates them without rounding. For other pairs a penetration below the rounding of
-// positions is ignored.
+// Two convex polygons have disjoint interiors exactly if one polygon lies beyond a side of the other (separating axis).
+// Pairs are searched in a bucket grid with about two triangles per bucket. A bucket with many triangles (dense relief
+// in a large mesh) gets a nested grid, as long as that helps. Neighbours share corners, bit by bit, so their common
+// side separates them without rounding. For other pairs a penetration below the rounding of positions is ignored.
 #include <algorithm>
 #include <cstddef>
 
@@ -107,7 +106,7 @@ class OverlapFinder {
     }
   }
 
-  /// True if `b` is entirely on the far side of a side of `a`, up to rounding.
+  /// True if `b` is entirely beyond a side of `a`, up to rounding.
   bool separates(const PlanTriangle& a, const PlanTriangle& b) const {
     for (int k = 0; k < 3; ++k) {
       const int next = k == 2 ? 0 : k + 1;

@@ -1,4 +1,4 @@
-// A closed triangle seen from above, as the judge represents it: corners in double, without a lattice.
+// A closed triangle seen from above, as the judge represents it, with double-precision corners and no lattice.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// Corners in counter-clockwise order (positive area) of their own coordinate system.
+/// Corners in counter-clockwise order (positive area) in their coordinate system.
 struct PlanTriangle {
   std::array<double, 3> x{}, y{};
 
@@ -46,8 +46,8 @@ struct PlanTriangle {
     return std::min(least, weight(2, px, py) / side(2));
   }
 
-  /// The range of x for the part of the triangle with y in [lo, hi]. An interval outside the triangle is replaced by
-  /// the triangle's nearest end.
+  /// The range of x for the part of the triangle with y in [lo, hi]. If [lo, hi] lies outside the triangle's range of
+  /// y, the nearest y of that range is used.
   Interval x_range(double lo, double hi) const {
     const Interval along = y_extent();
     lo = std::clamp(lo, along.lo, along.hi);

@@ -81,7 +81,7 @@ class Judge {
    public:
     explicit Run(const Judge& judge) : judge_(judge) {}
 
-    /// Errors near the bound are exact.
+    /// Errors near the bound are computed exactly.
     Verdict judge(std::size_t point, double bound) {
       bound_ = bound;
       const std::size_t source = judge_.source_of(point);
@@ -104,7 +104,7 @@ class Judge {
    private:
     struct Entry {
       Facet facet;
-      double least = 0;  ///< weights from here on count as zero or positive
+      double least = 0;  ///< weights of at least this count as zero or positive
       std::uint32_t triangle = 0;
     };
 
@@ -121,7 +121,7 @@ class Judge {
       }
     }
 
-    /// Exact for errors of 0, near the bound, or possibly the largest of the run.
+    /// Computed exactly if the error is 0, near the bound, or possibly the largest of the run.
     double error_at(const Facet& facet, const std::array<double, 3>& weights, double z) {
       constexpr double kRounding = 0x1p-48;
       double sum = 0, size = 0;
@@ -187,7 +187,7 @@ class Judge {
   BucketGrid grid_;
 };
 
-/// The bounds of points. The judge's own arithmetic rounds, which tolerances allow for.
+/// The bounds of points. Tolerances allow for the rounding of the judge's own arithmetic.
 class PointBounds {
  public:
   PointBounds(const SnappedPoints& snapped, const MeasureOptions& options)
@@ -208,7 +208,7 @@ class PointBounds {
   std::span<const float> tolerances_;
 };
 
-/// The polygons at which the surface ends, from the points, else from the options.
+/// The polygons at which the surface ends: those of the points, if any, else those of the options.
 std::vector<PlaceRing> rings_of(const PointSet& points, const MeasureOptions& options) {
   std::vector<PlaceRing> rings;
   for (const auto& ring : points.boundary) {

@@ -9,7 +9,7 @@
 
 namespace scarp::judge {
 
-/// measure_points() after duplicates have been resolved.
+/// The part of measure_points() that follows after duplicates have been resolved.
 Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options);
 

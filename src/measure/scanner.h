@@ -1,4 +1,4 @@
-// Finds the triangle over each sample, with one algorithm for affine frames and one for all frames.
+// Finds the triangle over each sample, with one algorithm for affine frames and one for any frame.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace scarp::judge {
 
-/// The triangles for judging heights, in some plan coordinates.
+/// The triangles by which heights are judged, in plan coordinates.
 struct Facets {
   FacetCorners corners;
   const Mesh* mesh = nullptr;

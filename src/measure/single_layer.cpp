@@ -63,7 +63,7 @@ bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open) {
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   const double noise = position_noise(mesh);
-  // Stops at ragged borders that need more work; overlaps are then searched.
+  // Stops if a ragged border needs more work; the caller then searches for overlaps.
   std::size_t left_to_do = 8 * mesh.triangle_count() + 1024;
   std::vector<const Side*> active;
   std::size_t next = 0;

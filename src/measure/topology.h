@@ -49,18 +49,18 @@ Connections connect(const Mesh& mesh, bool looks_up);
 /// once, up to the rounding of positions. False also if this cannot be decided quickly.
 bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open);
 
-/// Vertices in the interior of an open edge, seen from above, up to 1e-9 of the edge's length and the uncertainty of
+/// Vertices in the interior of an open edge, seen from above, within 1e-9 of the edge's length plus the uncertainty of
 /// positions (float32, or double). Cost: O(vertices) for edges of ordinary shape.
 std::uint64_t count_t_junctions(const Mesh& mesh, const Connections& connections);
 
 /// Counts open edges beyond which the domain of `field` continues, within `region` (null: everywhere); see
-/// Measurement::gaps. Cost: O(open edges · samples next to each · log), plus O(triangles) in unclear cases. Fails as
-/// the field's source does.
+/// Measurement::gaps. Cost: O(open edges · samples next to each · log), plus O(triangles) in unclear cases. Fails if
+/// the field's source fails.
 Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, const Connections& connections,
                                  double tolerance, const CutRegion* region);
 
 /// Counts pairs among the triangles `ids` whose interiors, seen from above, overlap by more than rounding; at most
-/// kMostOverlaps. `go_on` is called at intervals from this thread; false ends the search. Cost: O(triangles · log) for
+/// kMostOverlaps. `go_on` is called at intervals on this thread; false ends the search. Cost: O(triangles · log) for
 /// meshes without overlaps and without vertices of huge degree.
 constexpr std::uint64_t kMostOverlaps = 1000000;
 std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> ids, int threads,

@@ -61,7 +61,7 @@ using Signs = std::array<std::array<int, 3>, 3>;
 
 Point2 corner(const PlanTriangle& plan, std::size_t k) { return {plan.x[k], plan.y[k]}; }
 
-/// None if `b` lies entirely on a side of `a` or on its far side.
+/// None if `b` lies entirely beyond or on a side of `a`.
 std::optional<Signs> find_signs(const PlanTriangle& a, const PlanTriangle& b) {
   Signs signs;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -87,7 +87,7 @@ double distance_from(const PlanTriangle& by, int side, const Corner& at, const S
   return sign > 0 ? std::max(rounded, kLeast) : std::min(rounded, -kLeast);
 }
 
-/// The portion of `part` on the inner side of a side of `by`.
+/// The portion of `part` on the inside of one side of `by`.
 Part clip(const Part& part, const PlanTriangle& by, int side, const Signs& signs) {
   Part inner;
   for (std::size_t i = 0; i < part.count; ++i) {

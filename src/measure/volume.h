@@ -8,13 +8,13 @@ namespace scarp::judge {
 /// The volumes between two surfaces above a part of the plane. Neither volume is negative.
 struct Prism {
   double cut = 0;   ///< volume where the second surface lies below the first
-  double fill = 0;  ///< volume where it lies above
+  double fill = 0;  ///< volume where the second surface lies above the first
   double area = 0;  ///< area of the part, seen from above
 };
 
-/// The prism from `from` to `to`, above the intersection of their interiors. All values are exactly 0 if it is empty.
-/// Both volumes are exactly 0 if the two are one triangle. REQUIRES: corners are counter-clockwise, of sizes as for
-/// exact_orient().
+/// The prism from `from` to `to`, above the intersection of their interiors. All values are exactly 0 if the
+/// intersection is empty. Both volumes are exactly 0 if `from` and `to` are the same triangle. REQUIRES: corners are
+/// counter-clockwise, of sizes as for exact_orient().
 Prism find_prism(const Facet& from, const Facet& to);
 /// The prism from the whole triangle to a level.
 Prism find_prism(const Facet& from, double level);

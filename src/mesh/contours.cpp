@@ -69,7 +69,8 @@ class ContourTracer {
     return h;
   }
 
-  /// The entry of the line's first triangle: at the border, or in a closed line the given triangle.
+  /// The edge at which the line enters its first triangle: a border edge or, for a closed line, the given triangle's
+  /// edge.
   std::uint32_t find_start(std::uint32_t triangle) const {
     const std::uint32_t given = entry_of(triangle);
     std::uint32_t entry = given;

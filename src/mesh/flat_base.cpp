@@ -96,7 +96,7 @@ class FlatBase {
     }
   }
 
-  /// Removes unneeded border vertices, or all inner ones.
+  /// Removes unneeded border vertices, or all inner vertices.
   void remove_vertices(bool of_border) {
     using Entry = std::pair<std::uint32_t, std::uint32_t>;  // neighbours, vertex
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

@@ -177,7 +177,7 @@ void order_chunk(std::uint32_t* corners, std::size_t count) {
 constexpr std::size_t kChunkCorners = 3 * kChunkTriangles;
 
 /// New ids of the vertices, in the order of their first use by corners; kUnused for unused vertices. Returns the number
-/// of used ones.
+/// of used vertices.
 std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int threads, std::vector<std::uint32_t>& ids) {
   // For each vertex, the first chunk that uses it; one thread numbers the vertices of a chunk.
   std::vector<std::uint32_t> owners(ids.size(), kUnused);

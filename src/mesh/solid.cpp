@@ -1,4 +1,4 @@
-// Facts of a solid in the view of printing software, and solids that pass the checks of such software.
+// Facts about a solid as printing software sees it, and solids that pass the checks of such software.
 //
 // Such software reads positions as float32 and merges vertices at equal positions. So positions are rounded and merged
 // before judging. The requirements for a surface: every edge runs once in each direction, the triangles at each vertex

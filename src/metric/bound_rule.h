@@ -8,7 +8,7 @@
 
 namespace scarp {
 
-/// The largest double whose product with `weight`, as real numbers, is at most `value`; or the double below it.
+/// The largest double whose exact product with `weight` is at most `value`, or the double below it.
 double divide_down(double value, double weight);
 
 /// The largest float that is at most `value`.

@@ -36,7 +36,7 @@ class Criterion {
   /// only heights have bounds. `factor`: multiplies all tolerances.
   static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
                                 double factor = 1);
-  /// A temporary Request, as converted from SimplifyOptions, would not live long enough.
+  /// A temporary Request, converted from SimplifyOptions, would not live long enough.
   static Result<Criterion> make(const HeightField&, Request&&, const Raster&, double = 1, double = 1) = delete;
 
   const ErrorMetric& metric() const { return *metric_; }
@@ -62,7 +62,7 @@ class Criterion {
   bool importance_is_error() const { return importance_is_error_; }
   /// Order of insertion for one pass, without unbounded samples; empty if not used.
   std::vector<Point> ranking() const;
-  /// Samples without a bound; those of source_bounds() are counted by the proof.
+  /// Samples without a bound, except those of source_bounds(), which the proof counts.
   std::uint64_t ignored() const { return ignored_; }
   /// The channels of the field.
   const std::vector<Channel>& channels() const { return field_->channels; }

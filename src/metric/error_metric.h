@@ -44,13 +44,13 @@ class ErrorMetric {
   virtual ~ErrorMetric() = default;
   /// REQUIRES: corners are valid samples, orient(corners) > 0.
   virtual Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const = 0;
-  /// The most important sample of those that exceed their bound as real numbers; none if no sample does. `fit` is this
-  /// metric's complete fit of the same corners.
+  /// The most important sample that exceeds its bound in exact arithmetic, if any. `fit` is this metric's complete fit
+  /// of the same corners.
   virtual std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const = 0;
   /// The importance of a sample exactly at its bound, if importance is an error; else 0.
   virtual double goal() const = 0;
-  /// Sum of the squared errors (as in Fit) of the samples strictly between two samples on their straight edge. Both
-  /// triangles of the edge count them.
+  /// Sum of the squared errors (as in Fit) of the samples on the straight edge between two samples, without its ends.
+  /// The fits of both triangles at the edge include these errors.
   virtual double squares_between(Point a, Point b) const = 0;
   /// The bend of the surface between triangles a and b: |n_a − n_b|² of their unit normals, which grows with the angle.
   /// With channels: the scaled sum over all fields.

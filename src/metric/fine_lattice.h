@@ -36,8 +36,8 @@ void scan_fine(std::array<Point, 3> corners, int lattice, Visit&& visit) {
   });
 }
 
-/// The lattice of a triangle under the control f: ⌈(width + height) / (2 · area · f)⌉, but no finer than allowed, and
-/// with no coordinate beyond the lattice; 1 if f is 0 (off).
+/// The lattice of a triangle for the control f: ⌈(width + height) / (2 · area · f)⌉ steps per sample, limited by the
+/// finest allowed lattice and by the range of coordinates; 1 if f is 0 (off).
 inline int find_lattice(const std::array<Point, 3>& corners, double f) {
   if (!(f > 0)) return 1;
   const auto [low_x, high_x] = std::minmax({corners[0].x, corners[1].x, corners[2].x});

@@ -90,7 +90,7 @@ void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, co
   fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
 }
 
-/// The worst sample of those that exceed the threshold as real numbers.
+/// The worst sample that exceeds the threshold in exact arithmetic.
 std::optional<Candidate> scan_exactly(const Raster& raster, const std::array<Point, 3>& corners, const Plane& plane,
                                       double threshold) {
   const auto heights = heights_at(raster, corners);

@@ -1,4 +1,4 @@
-// The error metric of triangles whose corners lie between samples, with separate heights.
+// The error metric of triangles with corners between samples. Corners have their own heights.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ class LatticeHeights {
   static std::uint64_t key(Point point) {
     return (std::uint64_t{static_cast<std::uint32_t>(point.y)} << 32 | static_cast<std::uint32_t>(point.x)) + 1;
   }
-  /// The key's slot, or the one to insert it.
+  /// The key's slot, or the empty slot for it.
   std::size_t find(std::uint64_t key) const {
     std::size_t slot = (key * 0x9e3779b97f4a7c15) >> 32 & (slots_.size() - 1);
     while (slots_[slot].key != key && slots_[slot].key != 0) slot = (slot + 1) & (slots_.size() - 1);
@@ -54,8 +54,8 @@ class LatticeHeights {
   bool has_samples_ = false;  ///< true if set() changed heights of samples
 };
 
-/// Corners and candidates are in kLatticeSteps. Importance is the error over the bound if samples have individual
-/// bounds (row-major, +infinity: no bound), otherwise the error. Comparisons with bounds are exact.
+/// Corners and candidates are in kLatticeSteps. Importance is error / bound if samples have individual bounds
+/// (row-major, +infinity: no bound), otherwise the error. Comparisons with bounds are exact.
 class LatticeMetric final : public ErrorMetric {
  public:
   /// `heights` and the bounds must outlive it.

@@ -26,7 +26,7 @@ class Envelope {
 
   void clear() { count_ = 0; }
   bool is_empty() const { return count_ == 0; }
-  /// REQUIRES: places from left to right.
+  /// REQUIRES: places are added from left to right.
   void add(std::int32_t x, double height) {
     double begins = -kFarAway;
     for (; count_ > 0; --count_) {
@@ -56,7 +56,7 @@ class Envelope {
     std::int32_t x;
     double height;
   };
-  /// The x at which the parabola of b falls below that of a, to the left of it.
+  /// The x at which the parabola of b falls below that of a, which lies to the left of b.
   double crossing(const Low& a, const Low& b) const {
     const double x = a.x, y = b.x;
     return ((b.height - a.height) / (cell_ * cell_) + (y * y - x * x)) / (2 * (y - x));

@@ -21,10 +21,10 @@ namespace {
 /// Number of a row's samples that are scanned together.
 constexpr std::int32_t kChunkSamples = 64;
 
-/// If the importance is 0, the error times this decides, far below any other importance.
+/// If the importance is 0, the error times this replaces it, far below any other importance.
 constexpr double kUnimportant = 1e-280;
 
-/// Combining kMaxChannels + 1 errors needs about as many roundings, plus a few, by 2^-53 each.
+/// Combining kMaxChannels + 1 errors causes about as many roundings, plus a few, each by at most 2^-53.
 constexpr double kNormRounding = 0x1p-46;
 
 /// Adds one error to a norm; `total` holds Σ, Σ² or max.

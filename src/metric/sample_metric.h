@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// A field whose errors are combined. It is valid wherever the heights are.
+/// A field whose errors are combined. It is valid wherever the heights are valid.
 struct MetricField {
   const float* samples = nullptr;
   double scale = 1;  ///< above 0
@@ -21,7 +21,7 @@ struct MetricField {
 
 /// Keeps factors finite, so that errors still count.
 inline constexpr float kMostFactor = 1e30f;
-/// The importance factor of a sample ranked by error over bound. A bound of 0 outranks all others.
+/// The importance factor of a sample, for ranking by error / bound. A bound of 0 outranks all others.
 inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
@@ -42,9 +42,9 @@ struct MetricSettings {
 /// Settings for heights only, with individual bounds, ranked by error over bound.
 MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
 
-/// With one field of scale 1, comparisons with bounds are exact. A norm of several fields is compared within its
-/// rounding on the safe side, and exactly only for bound 0. So a sample whose norm equals its bound may be inserted,
-/// but no sample above its bound remains.
+/// With one field of scale 1, comparisons with bounds are exact. A norm of several fields is compared with a margin for
+/// its rounding, on the safe side, and exactly only for the bound 0. So a sample whose norm equals its bound may be
+/// inserted, but no sample above its bound remains.
 class SampleMetric final : public ErrorMetric {
  public:
   explicit SampleMetric(MetricSettings settings);

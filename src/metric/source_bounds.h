@@ -29,17 +29,17 @@ class SourceBounds {
   SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor);
 
   /// The targets of refinement in a window, `stride` floats a row. Fails with kUsage if a tolerance or weight is
-  /// negative or NaN, or a weight is infinite, and as the sources do.
+  /// negative or NaN, or a weight is infinite; also fails if a source fails.
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
   /// The same for whole rows of these samples, from `first` on. Also fails with kPromise if a requested bound is below
   /// its sample's rounding.
   Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
 
-  /// Unprocessed tolerances or weights of rows. Fails as the source does. REQUIRES: has_values().
+  /// Unprocessed tolerances or weights of rows. Fails if the source fails. REQUIRES: has_values().
   Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
   bool has_values() const { return tolerances_ != nullptr || weights_ != nullptr; }
   bool has_weights() const { return weights_ != nullptr; }
-  /// The guaranteed bounds of the samples of a row with these values, which are empty if !has_values().
+  /// The guaranteed bounds of the samples of a row. `values`: their tolerances or weights; empty if !has_values().
   void find_bounds(std::int32_t row, std::span<const float> values, std::span<float> bounds) const;
 
   /// True if the max error bounds every sample.

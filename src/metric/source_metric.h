@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// Equals HeightMetric, bit for bit, or SampleMetric if samples have individual bounds. For few queries, because each
-/// reads a window of the source around a triangle. Throws SourceFailure if a source fails.
+/// Equals HeightMetric, bit for bit, or SampleMetric if samples have individual bounds. Suits only few queries, because
+/// each query reads a window of the source around a triangle. Throws SourceFailure if a source fails.
 class SourceMetric final : public ErrorMetric {
  public:
   /// `bounds`: null if the threshold applies to all; must outlive it.

@@ -25,7 +25,7 @@ float tolerance_of_value(float value, bool is_rounded) {
   return is_rounded ? std::nextafter(value, 0.0F) : value;  // at most the value in the file
 }
 
-/// Converts the values of an opened raster to their meaning.
+/// Converts the values of an opened raster by `meaning`.
 class RasterValues final : public SampleSource {
  public:
   using Meaning = std::function<float(float)>;

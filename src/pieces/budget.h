@@ -22,9 +22,9 @@ class Budget {
 
   /// Fails if not even the smallest mesh fits: "N vertices are too few: CULPRIT M; allow moreADVICE".
   Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;
-  /// The budget, if any, that a vertex adding `gain` triangles would exceed.
+  /// The budget, if any, that one more vertex with `gain` more triangles would exceed.
   std::optional<StopReason> exceeded(const MeshSize& size, std::uint32_t gain) const;
-  /// True in the last 5 % of the budget, in which the best prefix is searched for.
+  /// True in the last 5 % of the budget, in which the prefix with the smallest error is searched for.
   bool in_last_stretch(const MeshSize& size) const;
   /// The larger used share of the two budgets; 0 without budgets.
   double used(const MeshSize& size) const;

@@ -12,7 +12,7 @@ namespace scarp {
 /// rounding.
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options);
 
-/// Fails as check_values() and check_size() do, and with kUsage for conflicting settings (src/pieces/conflicts.h) and
+/// Fails if check_values() or check_size() fails, and with kUsage for conflicting settings (src/pieces/conflicts.h) and
 /// missing prerequisites.
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options);
 

@@ -80,7 +80,6 @@ inline constexpr int kFieldCount = static_cast<int>(Field::kTileVertical) + 1;
 /// The library's name of the setting, such as "max_error" or "order = dominant".
 std::string_view name_of(Field field);
 
-/// A set of settings.
 class Fields {
  public:
   constexpr Fields() = default;
@@ -114,7 +113,7 @@ static_assert(kFieldCount <= 64);
 /// The settings of a call.
 Fields fields_of(const HeightField& field, const SimplifyOptions& options);
 
-/// The fields for which a conflict holds.
+/// The kinds of HeightField for which a conflict holds.
 enum class Where { kAlways, kInMemory, kStreamed };
 
 /// Each setting in `one` conflicts with each in `other`; if `beside` is not empty, only if one of `beside` is also set.

@@ -14,7 +14,7 @@ struct EffortTraits {
   bool goes_on = false;         ///< continues until the time limit, if any
   FitDepth depth = {};
   int exchanges = 0;                           ///< SquareGoal::exchanges
-  std::optional<Effort> lower = std::nullopt;  ///< the next lower effort that may find a smaller mesh for shapes
+  std::optional<Effort> lower = std::nullopt;  ///< the next lower effort that may find a smaller mesh for shape goals
 };
 
 /// REQUIRES: not kAuto.

@@ -23,8 +23,8 @@ namespace scarp {
 class SampleHeights {
  public:
   explicit SampleHeights(const Raster& raster) : raster_(raster) {}
-  /// Heights of a field with a source, which must outlive this. `known`: heights of the first vertices, which are not
-  /// read.
+  /// Heights of a field with a source, which must outlive this. `known`: heights of the first vertices, which need not
+  /// be read.
   SampleHeights(const HeightField& field, std::span<const float> known)
       : raster_{nullptr, field.cols, field.rows}, source_(field.source), known_(known) {}
 
@@ -41,10 +41,10 @@ class SampleHeights {
 };
 
 /// Maps vertices to positions in the frame: offsets from frame_origin(), or from the origin of a frame in space,
-/// rounded to float32 on request. Heights do not change, except in space. References outlive this.
+/// rounded to float32 on request. Heights do not change, except in space. The references must outlive this.
 struct VertexPositions {
   const SampleHeights& heights;
-  const VertexLattice& lattice;  ///< lattice of the vertices; its heights override those of samples
+  const VertexLattice& lattice;  ///< lattice of the vertices; its heights override samples
   const Frame& frame;
   bool round_to_float32 = false;
 };
@@ -57,8 +57,8 @@ Mesh freeze(const Triangulation& tin, const VertexPositions& positions, int thre
 LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice);
 
 /// Makes the mesh of freeze(), optionally in the order of optimize_order(), and releases the triangulation's memory
-/// step by step. At most 64 bytes a vertex are in use at a time in affine frames, else 88. Call its functions once,
-/// from top to bottom.
+/// step by step. At most 64 bytes a vertex are in use at a time in affine frames, else 88. Call each of its functions
+/// once, in the order of their declaration.
 class MeltDown {
  public:
   MeltDown(Triangulation tin, const VertexPositions& positions, int threads);

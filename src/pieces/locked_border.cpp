@@ -35,7 +35,7 @@ struct Chord {
   std::int32_t a, b;
 
   double value_at(std::span<const float> values, std::int32_t i) const { return chord_value(values, a, b, i); }
-  /// True if the sample is farther from the chord than the bound, as real numbers.
+  /// True if the sample's exact distance from the chord exceeds the bound.
   bool misses(std::span<const float> values, std::int32_t i, double bound) const {
     const float from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
     const float value = values[static_cast<std::size_t>(i)];

@@ -1,9 +1,9 @@
 // The locked border of a raster: lines along its edges, and a copy of the samples with edge samples moved onto the
 // lines.
 //
-//     edge     o──·──·──o──·──o      o  vertices of the line: there before refinement, and after every effort
-//              │╲       │   ╱ │      ·  samples that get the line's values: no triangle misses them, so none asks for
-//              │  ╲     │ ╱   │         a vertex there
+//     edge     o──·──·──o──·──o      o  vertices of the line, which exist before refinement and are never removed
+//              │╲       │   ╱ │      ·  samples that get the line's values, so that every triangle fits them and needs
+//              │  ╲     │ ╱   │         no vertex there
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class LockedBorder {
   /// Fails with kUsage if a point, in steps between samples, lies on a side but is not one of the vertices.
   Result<void> check(std::span<const Point> points, std::int32_t steps) const;
   Raster raster() const { return {samples_.data(), cols_, rows_}; }
-  /// The field with those channels.
+  /// `field` with this border's copies of the channels.
   HeightField with_channels(HeightField field) const;
 
  private:

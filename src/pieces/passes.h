@@ -17,8 +17,8 @@
 namespace scarp {
 
 /// Seeds the mesh of a piece with neighbours: its domain, with only the outline's vertices. Without surface cells, all
-/// triangles are outside. Edges along shared rows are free, since the domain ends there only if the neighbour has no
-/// surface.
+/// triangles are outside. Edges along shared rows are not constrained, since the domain ends there only if the
+/// neighbour has no surface.
 Result<void> seed(Piece& piece);
 
 /// How constraints are inserted.
@@ -30,22 +30,22 @@ struct ConstraintGoals {
 
 /// Inserts the edges of the graph, in the piece's coordinates, as chains of constrained edges. Then refines the
 /// triangles that break the bound: around the edges if the piece is already refined, else everywhere. Afterwards, the
-/// lattice has kLatticeSteps. Adds to `work`. Fails as ConstrainedMesh::insert() and piece.check do, and with kInput
+/// lattice has kLatticeSteps. Adds to `work`. Fails if ConstrainedMesh::insert() or piece.check fails, and with kInput
 /// for too many triangles.
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
 
 /// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many
-/// triangles and as piece.check does. REQUIRES: `metric` measures the piece's samples.
+/// triangles, and if piece.check fails. REQUIRES: `metric` measures the piece's samples.
 Result<void> refine(Piece& piece, const ErrorMetric& metric, Work& work);
 
 /// The result of a fit.
 struct FitOutcome {
   std::uint64_t removed = 0;  ///< vertices
-  bool is_cut_short = false;  ///< by the time limit
+  bool is_cut_short = false;  ///< the time limit ended it
 };
 
 /// Removes and moves vertices while every sample satisfies the aim of refinement. Vertices on shared rows are fixed.
-/// Fails as fit() does.
+/// Fails if fit() fails.
 Result<FitOutcome> fit_piece(Piece& piece, FitOptions options);
 
 inline constexpr const char* kTooManyTriangles =

@@ -4,7 +4,7 @@
 //     streamed       one strip at a time, which shares its upper and lower rows of samples with its neighbours
 //
 // A piece reads only its samples and one more row around them. The vertices on a shared row depend only on that row's
-// samples and tolerances. Both neighbours find the same vertices there, and neither adds any.
+// samples and tolerances. Both neighbours find the same vertices there, and neither adds others.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Piece {
   Raster samples;                             ///< NaN is nodata
   std::int32_t first = 0;                     ///< row of its first samples in the raster
   Triangulation tin;                          ///< in the piece's own coordinates
-  bool has_above = false, has_below = false;  ///< neighbours with the same vertices on the shared row
+  bool has_above = false, has_below = false;  ///< a neighbour there has the same vertices on the shared row
   Raster around = {};                         ///< `samples`, and one more row towards each neighbour
   VertexLattice lattice = {};                 ///< lattice of the vertices of `tin`
   /// The aim of refinement by sample; EMPTY: the run's threshold everywhere.

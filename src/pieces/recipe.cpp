@@ -44,9 +44,9 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
 }
 
-/// There is no search for squares with shape goals, nor with a locked border, which has a separate error; nor for
-/// streamed samples with lines, tolerances or curved frames, for which refinement of a fine start reads triangle by
-/// triangle.
+/// There is no search for a small squared error with shape goals, nor with a locked border, which has a separate error.
+/// There is none for streamed samples with lines, tolerances or curved frames either, because refinement of a fine
+/// start would read them triangle by triangle.
 Search choose_search(const Recipe& recipe) {
   const SimplifyOptions& options = recipe.options;
   if (!recipe.has_budget || (!recipe.fits && recipe.insertion_stops)) return Search::kNone;
@@ -67,8 +67,8 @@ double choose_height_step(const HeightField& field, const SimplifyOptions& optio
   const bool has_own =
       !own.values.empty() || own.source != nullptr || !own.weights.empty() || own.weights_source != nullptr;
   if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
-  // Meshes with a common border share the border's bound, but may have different bounds inside: levels, and neighbours
-  // with other errors.
+  // Meshes with a common border share the border's bound, but may have different bounds inside. Examples are levels,
+  // and neighbours with other errors.
   const Border& border = options.domain.border;
   const double asked = options.goals.max_error.value_or(0);
   const double shared = border.is_locked ? border.max_error.value_or(asked) : asked;

@@ -17,7 +17,7 @@ namespace scarp {
 /// The parameters of a run that a search sets, in addition to the options.
 struct Scale {
   double factor = 1;      ///< factor of all tolerances
-  double line_error = 0;  ///< max error of lines along the raster, if the options have no max error
+  double line_error = 0;  ///< max error of lines that follow the raster, if the options have no max error
   double start = 1;       ///< share of every bound that refinement uses; fitting uses the whole bound
   std::optional<SquareGoal> squares = std::nullopt;  ///< goal of fitting. DEFAULT: few triangles
   /// Only the size of a mesh above this budget matters: the mesh is neither ordered nor proven.
@@ -46,11 +46,11 @@ inline bool has_norm(const HeightField& field) { return !field.channels.empty() 
 /// are on samples if errors are norms. REQUIRES: checked options.
 Request settle_request(const HeightField& field, const SimplifyOptions& asked);
 
-/// A run towards its goals. Borrows the field's samples and the options.
+/// The decisions for one run. Borrows the field's samples and the options.
 struct Recipe {
   /// REQUIRES: checked options with a chosen effort.
   Recipe(const HeightField& field, const Request& options, const Scale& scale = {});
-  /// The same recipe for a field with heights changed by lines.
+  /// The same recipe for a field whose heights were changed by lines.
   Recipe on(const HeightField& prepared) const;
 
   HeightField field;
@@ -64,17 +64,18 @@ struct Recipe {
   bool has_source_bounds;  ///< streamed samples have bounds of their own
   bool is_dominant;        ///< the dominant order can reach the goals
   Route route;
-  /// Insertion can stop at a budget. It cannot stop with lines, which depend on the error, nor strip by strip.
+  /// True if insertion can stop at a budget. It cannot if there are lines, which depend on the error, nor strip by
+  /// strip.
   bool insertion_stops;
   bool fits;  ///< the effort removes vertices
   Search search;
   bool frees_vertices;         ///< vertices may move off their samples
   bool releases_starts;        ///< edges that serve only as a start may be removed
   bool fits_pieces;            ///< pieces are fitted: by the effort, or for shape goals
-  bool removes_last;           ///< removal follows refinement for shapes and preserves shapes: far fewer triangles
+  bool removes_last;           ///< removal follows refinement for shapes and preserves them: far fewer triangles
   bool fits_strips;            ///< vertices are removed strip by strip
   bool finishes_strips;        ///< some pass works on a strip while its samples are in memory
-  bool reads_beyond;           ///< also reads samples that refinement does not: nodata must be NaN
+  bool reads_beyond;           ///< reads samples that refinement does not read, so nodata must be NaN
   bool rounds_offsets;         ///< x and y are rounded to float32
   double height_step;          ///< heights become multiples of this power of two; 0: unchanged
   std::int32_t lattice_steps;  ///< lattice steps between two samples; vertices lie on the lattice

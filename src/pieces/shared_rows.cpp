@@ -66,7 +66,7 @@ std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_
   return vertices;
 }
 
-/// Makes samples of a row vertices for both strips that share it.
+/// Turns samples of a row into vertices of both strips that share it.
 void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples, ConstraintGraph& part) {
   for (const std::int32_t col : cols) {
     part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});

@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Number of rows that refine_shapes() holds at a time: at most a quarter of the memory, including bounds (null: none),
-/// but at least a few rows.
+/// Number of rows that refine_shapes() holds at a time. With their bounds (null: none) they need at most a quarter of
+/// the memory, but there are at least a few rows.
 std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds = nullptr);
 

@@ -1,8 +1,8 @@
 // A strip's part of the raster's lines.
 //
-//     strip above, done ──────┬───────    a line is cut at the shared row of samples: the vertex there is the line's
-//     strip at hand       line│           alone, so both strips know it. Where it cuts a chord of the shared row,
-//     ────────────────────────┴───────    samples split that, by the row's own rule (shared_rows.h).
+//     strip above, done ──────┬───────    a line is cut at the shared row of samples: the vertex there depends only
+//     strip at hand       line│           on the line, so both strips know it. If it cuts a chord of the shared row,
+//     ────────────────────────┴───────    samples split the chord, by the row's own rule (shared_rows.h).
 //     strips below, not read yet
 //
 // Walls and ridges must be inserted before the surface is refined, so before tiles. Strips that such a graph touches

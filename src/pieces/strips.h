@@ -1,7 +1,7 @@
 // Works on a streamed raster strip by strip: lines, refinement and fitting while the strip's samples are in memory.
 //
 //     strip above, done ──────────────    its lower row of samples is the next strip's upper row: vertices on it are
-//     strip at hand     │     │     │     fixed. The rest, across borders of tiles too, is one piece
+//     strip at hand     │     │     │     fixed. The rest, including borders of tiles, is one piece.
 //     ────────────────────────────────
 //     strips below, not read yet
 #pragma once

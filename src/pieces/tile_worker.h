@@ -23,7 +23,7 @@ struct TileOutcome {
   TilePiece piece;
   std::vector<float> heights;  ///< heights of the piece's points, if the field has a source
   Work work;
-  bool is_unsuited = false;    ///< heights span magnitudes too different for exact arithmetic
+  bool is_unsuited = false;    ///< magnitudes of heights differ too much for exact arithmetic
   bool is_broken_off = false;  ///< reached the vertex limit; there is no piece
 };
 

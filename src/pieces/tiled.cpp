@@ -179,8 +179,8 @@ class TiledRun {
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
 
-  /// Continues with one tile at a time, beginning with the first that did not fit in addition to others. Thus each tile
-  /// gets all available memory, for any number of threads.
+  /// Continues with one tile at a time, beginning with the first tile that did not fit in addition to others. Thus each
+  /// tile gets all available memory, for any number of threads.
   void refine(std::size_t first, std::size_t count) {
     const std::size_t end = first + count;
     const std::size_t refused = refine(first, end, threads_);
@@ -326,7 +326,8 @@ class TiledRun {
 
 }  // namespace
 
-/// Strips use a quarter of the memory, or half with post-processing, which loses at each border between strips.
+/// Strips use a quarter of the memory, or half with post-processing, since each border between strips makes its result
+/// worse.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_strip ? 1024 : 512;

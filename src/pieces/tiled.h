@@ -70,9 +70,9 @@ std::int32_t streamed_side(const HeightField& field, const TiledOptions& options
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
 /// Reads and refines one strip at a time if the samples are not in memory or strips are finished. Every sample of the
-/// surface lies within `threshold` of the triangulation, if finish_strip() preserves this. Returns none if heights span
-/// magnitudes too different for exact arithmetic, or if it declines. Fails as the field's source does; with kInput if
-/// there are no surface cells or too many triangles; with kUsage for too little memory; and with kCancelled.
+/// surface lies within `threshold` of the triangulation, if finish_strip() preserves this. Returns none if magnitudes
+/// of heights differ too much for exact arithmetic, or if it declines. Fails if the field's source fails; with kInput
+/// if there are no surface cells or too many triangles; with kUsage for too little memory; and with kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
 /// Refines a raster in memory as one tile with a locked border: starts with the given vertices and adds none on the

@@ -20,8 +20,8 @@ struct LatticePoints {
 /// True if add_attributes() adds any.
 bool has_attributes(const HeightField& field, const Request& options);
 
-/// Adds the requested normals and positions in the raster's image, and the field's channels. `field`: the refined one;
-/// with a locked border, the given one. `at`: the vertices. Throws SourceFailure.
+/// Adds the requested normals, the requested positions in the raster's image, and the field's channels. `field`: the
+/// refined one; with a locked border, the given one. `at`: the vertices. Throws SourceFailure.
 void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh);
 
 }  // namespace scarp

@@ -19,7 +19,7 @@ class CandidateStore {
   /// The triangle whose candidate is the worst. REQUIRES: !empty().
   virtual std::uint32_t worst() const = 0;
   virtual Candidate candidate(std::uint32_t id) const = 0;
-  /// Ids below `count` may be used from now on; new ones have no candidate.
+  /// Ids below `count` may be used from now on; new triangles have no candidate.
   virtual void grow(std::size_t count) = 0;
   /// Sets or replaces the triangle's candidate.
   virtual void set(std::uint32_t id, const Candidate& candidate) = 0;

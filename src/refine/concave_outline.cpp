@@ -10,7 +10,7 @@ namespace {
 
 bool is_inside(const Triangulation& tin, HalfEdge h) { return h != kNone && !tin.is_outside(h / 3); }
 
-/// True if the half-edge's triangle is part of the domain, but no triangle on the other side.
+/// True if the half-edge's triangle is part of the domain, but no triangle on its other side is.
 bool is_boundary(const Triangulation& tin, HalfEdge h) { return is_inside(tin, h) && !is_inside(tin, tin.twin(h)); }
 
 struct LongEdge {

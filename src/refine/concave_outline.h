@@ -25,8 +25,8 @@ std::size_t take_away_long(ScatteredDomain& domain, double longest);
 /// omitted. REQUIRES: the boundary is a simple polygon.
 std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain);
 
-/// The domain within the concave hull of all points. Its boundary has edges up to `length`, in units of x and y, and
-/// longer ones only where they cannot be removed. `hull`: build_domain(points).
+/// The domain within the concave hull of all points. Its boundary has edges of at most `length`, in units of x and y,
+/// and longer edges only where they cannot be removed. `hull`: build_domain(points).
 Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, ScatteredDomain hull, double length);
 
 }  // namespace scarp

@@ -1,9 +1,9 @@
 // Algorithm IV: edges that fit the data (Garland & Heckbert 1995, section 4.4; Scape's CheckSwap).
 //
 // For the quadrilateral of an edge that faces the new vertex, each diagonal is scored by the errors of its two
-// triangles. The better diagonal is kept; if shapes differ too much, the one with better shapes. The fit of a triangle
-// is cached until the triangle is removed, so no triangle is scanned twice. Unlike in Scape, every scan covers the
-// closed triangle, so no sample is lost between triangles.
+// triangles. The diagonal with the better score is kept, or, if shapes differ too much, the diagonal with better
+// shapes. The fit of a triangle is cached until the triangle is removed, so no triangle is scanned twice. Unlike in
+// Scape, every scan covers the closed triangle, so no sample is lost between triangles.
 #pragma once
 
 #include <vector>

@@ -43,7 +43,7 @@ HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<
   return kNone;
 }
 
-/// Marks triangles as outside that no path without constrained edges connects with the left side of an outline's edge.
+/// Marks a triangle as outside if every path from it to the left side of an outline's edge crosses a constrained edge.
 /// Samples cannot decide this: a simplified outline may enclose triangles that contain only nodata, with samples at
 /// their corners.
 Result<void> mark_outside(Triangulation& tin, const Outline& outline) {

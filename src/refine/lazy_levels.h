@@ -1,4 +1,4 @@
-// The lazy order: by levels of error, highest first; a triangle is scanned only in its turn.
+// The lazy order inserts by levels of error, the highest first. A triangle is scanned only when its turn comes.
 //
 // THE PROBLEM. In the dominant order (dominant.h), every insertion scans the whole fan around the new vertex, some six
 // triangles. Four of them are removed before their candidates are used; scans dominate the cost of a fine mesh.

@@ -1,9 +1,9 @@
 // Lines through scattered points, as chains of edges.
 //
 // A chain passes those points of its line that are vertices. Its edges are the chords between successive vertices. So
-// it adds only its ends to the vertices of the surface, and vertices that separate two chains. Chords that meet are
-// split at the farthest point of their line until none meet. This ends, since whole lines meet only where they have the
-// same height.
+// the only vertices that it adds to the surface are its ends and vertices that separate two chains. Chords that meet
+// are split at the farthest point of their line until none meet. This ends, since whole lines meet only where they have
+// the same height.
 #pragma once
 
 #include <array>

@@ -11,13 +11,13 @@ namespace scarp {
 
 class PointSurface {
  public:
-  /// Fails as snap_points() and build_domain() do. Cost: expected O(n log n).
+  /// Fails if snap_points() or build_domain() fails. Cost: expected O(n log n).
   static Result<PointSurface> make(const PointSet& points, DuplicatePolicy duplicates);
 
   struct Height {
     double z = 0;
-    double distance = 0;  ///< from the hull, in units of x and y, if the place lies beyond; then z is that of the
-                          ///< nearest place on it
+    double distance = 0;  ///< from the hull to a place outside it, in units of x and y; z is then that of the nearest
+                          ///< place on the hull
   };
   Height at(double x, double y) const;
   /// The mean distance between neighbouring points, in units of x and y.

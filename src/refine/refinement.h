@@ -31,7 +31,7 @@ class Refinement {
   /// The state of the triangles at the start.
   enum class Start {
     kScan,   ///< scan every triangle that is not outside
-    kClean,  ///< all satisfy their bounds, or scan() scans those that may not
+    kClean,  ///< all satisfy their bounds, or scan() scans triangles that may not
   };
   /// The metric and `tin` must outlive this; no other code may change them. Edges are Delaunay, or data-dependent if
   /// `edges` requests it. Triangles of `tin` do not change until a point is inserted.
@@ -97,7 +97,7 @@ class Refinement {
   std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay, or by flips_
   FlipRule* flips_ = nullptr;
   std::unique_ptr<CandidateStore> candidates_;
-  std::vector<Triangle> star_, unseen_;  // changed by the last insertion; by insertions not rescanned yet
+  std::vector<Triangle> star_, unseen_;  // changed by the last insertion, and by insertions not rescanned yet
   std::vector<std::uint8_t> changed_;
   std::uint64_t inside_ = 0, samples_ = 0, triangles_ = 0, passes_ = 0;
 };

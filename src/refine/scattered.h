@@ -6,8 +6,8 @@
 // the same height on the edge, and a comparison that rounding could decide is made in exact arithmetic.
 //
 // The domain is the convex hull, or a polygon within it that contains all points. Its corners are first inserted into
-// the rectangle of the lattice, its edges are constrained, and triangles beyond are marked outside, as outside the
-// outline of a raster with nodata.
+// the rectangle of the lattice, its edges are constrained, and triangles beyond them are marked outside, like those
+// beyond the outline of a raster with nodata.
 //
 // Cost: expected O(n log m) for n points and m insertions.
 #pragma once
@@ -52,8 +52,8 @@ struct ScatteredDomain {
 /// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three points or all lie on
 /// one line.
 Result<ScatteredDomain> build_domain(const SnappedPoints& points);
-/// The triangulation of the corners of polygons, given as rings, whose inside by the even-odd rule contains all points.
-/// Fails with kInput if rings cross.
+/// The triangulation of the corners of polygons, given as rings. Their inside, by the even-odd rule, contains all
+/// points. Fails with kInput if rings cross.
 Result<ScatteredDomain> build_domain(const SnappedPoints& points,
                                      const std::vector<std::vector<std::uint32_t>>& outlines);
 
@@ -86,9 +86,9 @@ class ScatteredRefinement {
   /// Triangles around the last inserted vertex: all that its insertion changed.
   const std::vector<Triangle>& changed() const { return star_; }
 
-  /// Flips edges so that fewer triangles are flat: all corners are marked points at one height. Every point remains
-  /// within the threshold; constraints are kept. Returns the number of remaining flat triangles. REQUIRES: done(). The
-  /// next insertion may flip edges back.
+  /// Flips edges so that fewer triangles are flat. A triangle is flat if all corners are marked points at one height.
+  /// Every point remains within the threshold; constraints are kept. Returns the number of remaining flat triangles.
+  /// REQUIRES: done(). The next insertion may flip edges back.
   std::uint64_t flip_flats(const std::vector<bool>& is_marked);
 
   std::uint64_t triangle_count() const { return inside_; }
@@ -108,7 +108,7 @@ class ScatteredRefinement {
     Candidate worst{-1, {}};
     std::uint32_t worst_point = kNone;
 
-    /// For p in the star: true if p lies in this triangle, closed.
+    /// For p in the star: true if p lies in this closed triangle.
     bool holds(Point p) const {
       return orient(corners[0], corners[1], p) >= 0 && orient(corners[0], corners[2], p) <= 0;
     }

@@ -18,7 +18,7 @@ struct TileWindow {
 /// Padded samples and blocks, refilled for each tile: memory is reused.
 class Tile {
  public:
-  /// Fails as the field's source does. REQUIRES: a window in the raster, sides 2 … kMaxTileSide.
+  /// Fails if the field's source fails. REQUIRES: a window in the raster, sides 2 … kMaxTileSide.
   Result<void> load(const HeightField& field, const TileWindow& window);
   /// Loads every `step`-th sample of a tile, from the first on. REQUIRES: at least two such samples each way.
   void load_coarse(const Tile& fine, std::int32_t step);

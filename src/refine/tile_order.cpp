@@ -7,10 +7,10 @@ namespace scarp {
 
 namespace {
 
-// Measured on 45 rasters at 0.4 to 12 % of the samples (bench/performance.md, "Order").
+// Measured on 45 rasters with 0.4 to 12 % of the samples as vertices (bench/performance.md, "Order").
 constexpr double kRough = 1.75;       // growth of bends below which only areas decide the order
 constexpr double kModerate = 2;       // growth below which square roots of areas decide
-constexpr double kDense = 0.13;       // vertices per sample: triangles have few samples, errors no common size
+constexpr double kDense = 0.13;       // vertices per sample; beyond it, triangles have few samples and varied errors
 constexpr double kFewVertices = 500;  // in a tile: too few to gain anything
 
 constexpr std::int32_t kLooks = 48;  // per side

@@ -27,7 +27,7 @@ struct SharedSides {
 };
 
 /// Compares heights with one threshold: the guarantee of the plain metric, with the kernels' arithmetic. A triangle's
-/// candidate is the sample with the largest error among those that exceed the threshold as real numbers.
+/// candidate is the sample with the largest error that exceeds the threshold in exact arithmetic.
 class TileScanner {
  public:
   /// The tile's samples must outlive this. REQUIRES: each is at most kMaxScanHeight in magnitude.
@@ -36,8 +36,8 @@ class TileScanner {
   /// Sets candidate_key() of each triangle that is not outside. `hints`: see ScanKernels::scan.
   void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const TilePoint> hints);
 
-  /// Sets the sides on which no sample breaks its bound, for any inserted points. If exact arithmetic fails there (for
-  /// heights whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
+  /// Sets the sides on which no sample can break its bound, whichever points are inserted. If exact arithmetic fails
+  /// there (for heights whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
   void set_shared(const SharedSides& sides) { shared_ = sides; }
   bool has_given_up() const { return has_given_up_; }
 

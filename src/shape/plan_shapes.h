@@ -38,8 +38,8 @@ class PlanShapes {
     const HalfEdge h = shortest(t);
     return is_sharper(dot_over(h), square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
   }
-  /// True if the input forces the small angle: between two walls, or over an edge that joins two walls of an acute
-  /// corner.
+  /// True if the input forces the small angle: the angle lies between two walls, or opposite an edge that joins two
+  /// walls of an acute corner.
   bool is_forced(Triangle t) const {
     const HalfEdge h = shortest(t);
     const auto is_corner = [&](HalfEdge side) {
@@ -52,7 +52,7 @@ class PlanShapes {
   }
 
  private:
-  /// Dot product of the vectors from the opposite corner to the ends.
+  /// Dot product of the vectors from the opposite corner to the ends of the edge.
   double dot_over(HalfEdge h) const {
     return metric_.dot(tin_.point(tin_.origin(Triangulation::previous(h))), tin_.point(tin_.origin(h)),
                        tin_.point(tin_.origin(Triangulation::next(h))));

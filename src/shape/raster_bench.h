@@ -33,7 +33,8 @@ class RasterBench final : public ShapeBench {
   void hold(std::size_t band) override;
   void scan(Triangle t) override { refinement_->scan({&t, 1}); }
 
-  /// The lattice of the vertices. Fixed are vertices that were fixed, and all between samples unless `all_may_go`.
+  /// The lattice of the vertices. Vertices that were fixed remain so; vertices between samples are also fixed unless
+  /// `all_may_go`.
   VertexLattice lattice(bool all_may_go) const;
 
  private:

@@ -1,4 +1,5 @@
-// The surface whose shapes are refined: it has samples, heights and the error, while refine_shapes() has the plan.
+// The surface whose triangles are refined: it handles samples, heights and the error, while refine_shapes() handles the
+// plan.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ class ShapeBench {
  public:
   virtual ~ShapeBench() = default;
 
-  /// No sample breaks its bound.
+  /// True if no sample breaks its bound.
   virtual bool done() const = 0;
   virtual bool is_full() const = 0;
   virtual double worst_error() const = 0;
@@ -24,13 +25,13 @@ class ShapeBench {
   virtual bool insert(Point p, const Triangulation::Location& location) = 0;
   /// Inserts a vertex on an edge or next to it, with the height at this share of the way along the edge.
   virtual void insert_on_edge(Point p, HalfEdge h, double share) = 0;
-  /// Triangles around the vertex that was inserted last, which are all that changed.
+  /// The triangles around the vertex that was inserted last; no others changed.
   virtual const std::vector<Triangle>& changed() const = 0;
   virtual std::uint64_t samples_scanned() const = 0;
   virtual std::uint64_t triangles_scanned() const = 0;
 
-  /// For streamed samples: true if they are read in bands; reads the samples around a band; finds the samples of a
-  /// triangle there that break their bound.
+  /// For streamed samples. is_streamed(): true if they are read in bands; hold(): reads the samples around a band;
+  /// scan(): finds a triangle's samples there that break their bound.
   virtual bool is_streamed() const { return false; }
   virtual void hold(std::size_t /*band*/) {}
   virtual void scan(Triangle /*t*/) {}

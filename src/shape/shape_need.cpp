@@ -26,7 +26,7 @@ double least_triangles(const Triangulation& tin, const PlanMetric& metric, const
                    side2 = std::max({metric.square(a, b), metric.square(b, c), metric.square(c, a)});
       const double size =
           std::min({sizes->at(tin.origin(3 * t)), sizes->at(tin.origin(3 * t + 1)), sizes->at(tin.origin(3 * t + 2))});
-      // A triangle that overlaps this one has corners up to an edge beyond it.
+      // A triangle that overlaps this one has corners at most an edge length beyond it.
       const double most = (size + way * std::sqrt(side2)) / (1 - kGradeFactor * way);
       longest = std::min(longest, kGradeFactor * most);
     }

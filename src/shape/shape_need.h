@@ -15,9 +15,9 @@ namespace scarp {
 /// Upper bound of edge length / size.
 inline constexpr double kGradeFactor = 2;
 
-/// Lower bound of the number of triangles in the surface of `tin`: its area over that of equilateral triangles with the
-/// longest allowed edges. Sizes only fall below the given ones (null: without a grade). 0 if edges are unlimited or
-/// sizes grow too fast for an estimate. Cost: O(triangles).
+/// Lower bound of the number of triangles in the surface of `tin`: its area divided by that of an equilateral triangle
+/// with the longest allowed edges. Sizes only fall below the given ones (null: without a grade). 0 if edges are
+/// unlimited or sizes grow too fast for an estimate. Cost: O(triangles).
 double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
                        const SizeField* sizes);
 

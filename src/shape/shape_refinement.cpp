@@ -94,7 +94,7 @@ class ShapeRefiner {
       if (here.empty()) continue;
       bench_.hold(band_);
       for (const Triangle t : here) {
-        // A triangle that left the band was changed and scanned.
+        // A triangle that is no longer in the band was changed, and scanned then.
         if (is_first && bands_.at(row_of(t)) == band_) bench_.scan(t);
         enqueue(t);
       }
@@ -308,14 +308,13 @@ class ShapeRefiner {
     return true;
   }
 
-  /// Halves a free edge.
   bool split_free(HalfEdge h) {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
     const auto p = beside({(double(a.x) + b.x) / 2, (double(a.y) + b.y) / 2}, h);
     return p && insert_in_surface(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
-  /// The lattice point nearest to `wanted` on an edge with two sides such that all four triangles are positive.
+  /// The lattice point nearest to `wanted` with which the two triangles of an edge become four positive triangles.
   std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
                 c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
@@ -450,7 +449,7 @@ class ShapeRefiner {
   double spacing_, least_, least_for_size_ = 0, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
-  std::size_t band_ = 0;                                       ///< current band
+  std::size_t band_ = 0;
   double share_ = 1;                                           ///< fraction of bands processed
   std::vector<WaitingTriangles> waiting_;                      ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
@@ -499,7 +498,7 @@ Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, Vertex
 
 namespace {
 
-/// A frame whose samples are kLatticeSteps of the points' lattice apart.
+/// A frame with samples that are kLatticeSteps steps of the points' lattice apart.
 Frame frame_of(const PointLattice& lattice) {
   const double cell = kLatticeSteps * lattice.step;
   Frame frame;

@@ -2,7 +2,7 @@
 //
 // In a triangle with too small an angle, a vertex is inserted near the circumcentre: first at the off-centre (A. Üngör,
 // 2004), which makes the angle over the shortest edge just as requested, else at the circumcentre. If the point is
-// beyond an outline or a line, or in the diametral circle of one of their edges, the edge is halved instead (J.
+// beyond an outline or a line, or in the diametral circle of one of their edges, this edge is halved instead (J.
 // Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation", 1995). At a corner of less than
 // 45 degrees, the edge is split at a power of two from the corner (J. R. Shewchuk, "Delaunay refinement algorithms for
 // triangular mesh generation", 2002), so that both sides have edges of the same lengths. In a triangle that is too
@@ -10,8 +10,8 @@
 //
 // Differences: edges with vertices in their circle are split only if a bad triangle requires it. Every vertex is a
 // lattice point, on a sample if samples are fine enough. After each step, samples that break the bound are inserted,
-// worst first. Refinement ends for any goal: vertices added for angles stay 1/32 of a sample from all others, edges are
-// split for size only while they are longer than allowed, and the number of samples is finite.
+// worst first. Refinement terminates for any goal: vertices added for angles stay 1/32 of a sample from all others,
+// edges are split for size only while they are longer than allowed, and the number of samples is finite.
 //
 // If samples are streamed, the mesh is in memory, and bands of rows are processed from the top down. Bad triangles of a
 // band are treated while its samples, and some around it, are held. Changed triangles elsewhere are refined to the
@@ -42,12 +42,12 @@ namespace scarp {
 
 struct ShapeTask {
   ShapeGoals goals;
-  std::array<double, 6> affine;        ///< affine map of the frame
-  double threshold = 0;                ///< threshold of errors
+  std::array<double, 6> affine;
+  double threshold = 0;
   std::span<const float> bounds = {};  ///< bounds of samples, like those of LatticeMetric
   bool all_may_go = false;             ///< later passes may remove or move vertices that are not samples
-  /// Receives the fraction of bands processed once (1 without bands), the number of vertices and the worst error; a
-  /// failure ends the run.
+  /// Receives the fraction of bands that were processed at least once (1 without bands), the number of vertices and the
+  /// worst error; a failure ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
   /// Receives the least number of triangles once, at the start; a failure ends the run.
   std::function<Result<void>(double triangles)> foresee = {};
@@ -63,10 +63,10 @@ struct ShapeWork {
 };
 
 /// Makes `tin` Delaunay in the frame, except constrained edges. Adds vertices until every sample satisfies its bound
-/// and the goals hold as ShapeGoals describes. `lattice`: of the vertices; afterwards in kLatticeSteps. Fixed vertices
-/// remain so; vertices between samples become fixed unless vertices are free. Fails with kInput for too many triangles,
-/// and like progress and foresee; throws SourceFailure. REQUIRES: checked goals; sides of at most kMaxCoordinate /
-/// kLatticeSteps samples; an exact outline. Cost: expected O(log n) an insertion, without scanning.
+/// and the goals hold as ShapeGoals describes. `lattice`: that of the vertices; afterwards its steps are kLatticeSteps.
+/// Fixed vertices remain fixed; vertices between samples become fixed unless vertices are free. Fails with kInput for
+/// too many triangles, and like progress and foresee; throws SourceFailure. REQUIRES: checked goals; sides of at most
+/// kMaxCoordinate / kLatticeSteps samples; an exact outline. Cost: expected O(log n) per insertion, without scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
                                 const ShapeTask& task);
 
@@ -80,8 +80,8 @@ Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const dou
 /// Most bytes that refine_shapes() uses per vertex, including the mesh.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
-/// Preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing if only
-/// insertion can preserve them: with a grade, or if rows and columns of the frame are not perpendicular.
+/// The rule that preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing
+/// if only insertion can preserve them: with a grade, or if rows and columns of the frame are not perpendicular.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice);
 

@@ -57,7 +57,7 @@ void SizeField::update(const std::vector<Triangle>& changed, const std::vector<H
   states_.resize(tin_.vertex_count(), 0);
   const std::size_t before = fallen.size();
   for (const Triangle t : changed) take_lengths(t);
-  // New edges are new paths: along them, vertices pass small sizes on even if their own did not fall.
+  // New edges are new paths, along which vertices pass on small sizes even if their own sizes did not fall.
   for (const Triangle t : changed) {
     if (tin_.is_outside(t)) continue;
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {

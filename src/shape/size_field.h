@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// The size at a vertex is the least s + grade·d over all vertices, where s is the length of their shortest edge and d
-/// their distance along edges. Sizes only fall while a mesh grows: edges that were flipped away also count.
+/// The size at a vertex is the least s + grade·d over all vertices, where s is the length of such a vertex's shortest
+/// edge and d is its distance along edges. Sizes only fall while a mesh grows: edges that were flipped away also count.
 class SizeField {
  public:
   /// Borrows `tin` and `metric`. Lengths below `least` count as `least`.
@@ -20,7 +20,7 @@ class SizeField {
   /// Measures the sizes of all vertices. `out`: a half-edge out of each one.
   void measure_all(const std::vector<HalfEdge>& out);
   /// Updates sizes after an insertion; `changed`: the triangles around the new vertex. Appends each vertex whose size
-  /// fell once.
+  /// fell to `fallen`, once.
   void update(const std::vector<Triangle>& changed, const std::vector<HalfEdge>& out, std::vector<Vertex>& fallen);
 
   double at(Vertex v) const { return sizes_[v]; }

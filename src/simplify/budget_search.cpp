@@ -19,13 +19,13 @@ namespace {
 
 constexpr double kFull = 0.99;        // used share that ends the search
 constexpr double kNearlyFull = 0.97;  // the same after Pace::patience runs
-constexpr double kNearFloor = 0.02;   // logarithm: a number this near a goal is replaced by the goal
+constexpr double kNearFloor = 0.02;   // logarithm; a number that is this near to a goal is replaced by the goal
 constexpr double kLeast = std::numeric_limits<double>::min();
 
-/// Fewer triangles scatter from run to run by more than a percent. Where they jump, the mesh of a smaller budget may be
-/// better.
+/// Below this number, the triangles scatter from run to run by more than a percent. If their number jumps, the mesh of
+/// a smaller budget may be better.
 constexpr std::size_t kFewTriangles = 500;
-constexpr double kJump = 0.9;  // a jump uses less than this share of the budget
+constexpr double kJump = 0.9;  // after a jump, less than this share of the budget is used
 
 /// How a search continues from its start.
 struct Pace {
@@ -120,7 +120,7 @@ class BudgetSearch {
     return std::move(best_);
   }
 
-  /// The error for meshes within the budget that memory had no room for.
+  /// The error for meshes that are within the budget but did not fit in memory.
   const std::optional<Error>& no_room() const { return no_room_; }
 
   /// True if the number of triangles jumps over the budget, so that much of it is unused.
@@ -189,8 +189,8 @@ class BudgetSearch {
     return best_.is_cut_short;
   }
 
-  /// Fast effort has reached the floor, and more effort makes that mesh smaller. If rounding prevents the floor, the
-  /// reached number is used.
+  /// Fast effort has reached the floor, and a larger effort makes that mesh smaller. If rounding prevents the floor,
+  /// the reached number is used.
   Result<void> fit_into_room() {
     if (auto looked = look(floor_); !looked || fits_ || first_ <= floor_) return looked;
     return look(first_);
@@ -230,8 +230,8 @@ class BudgetSearch {
     return expected_after(*made);
   }
 
-  /// The share of the budget that effort is expected to use: the denser the refined mesh, the more of its triangles
-  /// remain. The lines fit measured triangles.
+  /// The share of the budget that the whole effort is expected to use: the denser the refined mesh, the more of its
+  /// triangles remain. The formulas fit measurements.
   double expected_after(const Simplified& refined) const {
     const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
@@ -258,7 +258,7 @@ class BudgetSearch {
       return is_near_floor(number) ? floor_ : std::exp(number);
     }
     const double width = highest() - exceeds_->number;
-    constexpr int kTrusted = 3;  // vain runs: a power misleads if outlines nearly use up the budget
+    constexpr int kTrusted = 3;  // vain runs; a power is misleading if outlines nearly use up the budget
     if (!std::isfinite(exceeds_->used) || (!fits_ && stays_ > kTrusted)) {
       number = highest() - width / 2;
     } else if (fits_) {
@@ -292,7 +292,7 @@ class BudgetSearch {
     }
     // The mesh is nearly the same for all numbers down to the one that it reaches.
     const double reached = std::min(number, made->judged_max_error);
-    // Effort may find a smaller mesh for the floor itself.
+    // A larger effort may find a smaller mesh for the floor itself.
     is_at_floor_ = number == floor_ || (!has_effort_ && reached <= floor_);
     see(fits_, Sight{std::log(std::max(reached, kLeast)), std::log(used)});
     end_by(*made);

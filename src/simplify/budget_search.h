@@ -1,13 +1,13 @@
-// A search over one number finds the mesh of a budget: over the max error or, if samples have tolerances, a factor of
-// all bounds.
+// Finds the mesh of a budget by a search over one number: the max error or, if samples have tolerances, a factor of all
+// bounds.
 //
-//   a mesh within the budget        ── greedy insertion that stops at it; where insertion cannot stop, the least mesh
-//   with effort: refinement alone   ── how triangles grow as the bounds fall: about a power, and cheap to see
-//   runs for other numbers          ── secants through them in log–log, by the Illinois rule
+//   a mesh within the budget        ── greedy insertion that stops at the budget or, if it cannot, the least mesh
+//   above fast effort: refinement   ── shows at low cost how triangles grow as the bounds fall: about as a power
+//   runs for other numbers          ── secants through the results in log–log, by the Illinois rule
 //
 // Insertion cannot stop at a budget if it does not know the other needs of the mesh: the error of the final mesh
-// determines how closely lines follow the raster, and no strip knows the others. In these cases, a search also finds
-// the mesh of fast effort, at which the search of a larger effort begins.
+// determines how closely lines follow the raster, and no strip knows the needs of other strips. In these cases, a
+// search also finds the mesh of fast effort, from which the search of a larger effort starts.
 #pragma once
 
 #include <functional>
@@ -19,11 +19,10 @@
 
 namespace scarp {
 
-/// simplify() without a search: towards the bounds of `options`, by `scale`, whose line error is known. If
-/// BudgetTask::insertion_stops and the scale only refines, towards budgets.
+/// simplify() without a search: towards the bounds of `options`, changed by `scale`, whose line error is known. If
+/// BudgetTask::insertion_stops and the scale only refines, the run is towards budgets.
 using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, const Scale& scale)>;
 
-/// The number that is searched for.
 class BudgetNumber {
  public:
   /// The options stay alive.
@@ -32,7 +31,7 @@ class BudgetNumber {
   /// The options of a run towards `number`, without budgets.
   SimplifyOptions towards(double number) const;
   double factor_of(double number) const { return is_factor_ ? number : 1; }
-  bool is_factor() const { return is_factor_; }  ///< True for a factor of all bounds; else it is the max error.
+  bool is_factor() const { return is_factor_; }  ///< True for a factor of all bounds; else the number is the max error.
 
  private:
   const SimplifyOptions& options_;
@@ -43,24 +42,26 @@ struct BudgetTask {
   RunOnce run;
   EffortTraits traits = {};                    ///< the work of a run with the whole effort
   bool insertion_stops = true;                 ///< insertion can stop at budgets
-  std::function<double()> most = {};           ///< a number that gives the least mesh
+  std::function<double()> most = {};           ///< a number for which a run makes the least mesh
   std::string least = "the least mesh needs";  ///< subject of the error for a budget that the least mesh exceeds
 };
 
 /// The mesh with the least Simplified::judged_max_error, or judged_rmse (options.objective), among the meshes of the
-/// search within the budgets. If options.max_error, or factor 1, fits: the mesh for it; for the objective max error,
-/// the one with the fewest triangles. The exact mesh if the budgets have room for it and there is no other goal.
+/// search within the budgets. If the mesh for options.max_error, or for factor 1, fits: that mesh; for the objective
+/// max error, the one with the fewest triangles. The exact mesh if the budgets have room for it and there is no other
+/// goal.
 ///
 /// Guarantees: no budget is exceeded; the objective is not larger than in the mesh of fast effort for the same budgets;
 /// the result depends only on the results of `run`. The search ends when the mesh uses at least 99 % of a budget (97 %
 /// after some runs), or when two numbers 0.2 % apart (0.5 % for a few hundred triangles) are on both sides of the
-/// budget: the number of triangles jumps there, as with errors that many samples share. If then a tenth of a few
-/// hundred triangles is unused, half of the budget is also tried, which may find a better mesh by chance. With effort,
-/// the search also ends when options.is_time_up requests it, with the best mesh so far. At most kMostRuns runs with the
-/// whole effort, mostly two or three, or kMostRunsFromLeast from the least mesh on. Memory: the best mesh so far in
-/// addition to a run. Progress is that of one pass, "search". Fails like `run`, and with kUsage, which names the least
-/// sufficient budget, if the least mesh exceeds a budget. A bound that cannot be satisfied (kPromise) only ends the
-/// search below it. `refines_only`: uses fast effort for any task. REQUIRES: a budget.
+/// budget: the number of triangles jumps there, for example because many samples have the same error. If then a tenth
+/// of a few hundred triangles is unused, half of the budget is also tried, which may find a better mesh by chance.
+/// Above fast effort, the search also ends when options.is_time_up requests it, with the best mesh so far. There are at
+/// most kMostRuns runs with the whole effort, mostly two or three, or kMostRunsFromLeast if the search starts at the
+/// least mesh. Memory: the best mesh so far in addition to a run. Progress is that of one pass, "search". Fails like
+/// `run`, and with kUsage, which names the least sufficient budget, if the least mesh exceeds a budget. A bound that
+/// cannot be satisfied (kPromise) only ends the search below it. `refines_only`: uses fast effort for any task.
+/// REQUIRES: a budget.
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only = false);
 
 inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;

@@ -6,8 +6,8 @@
 
 namespace scarp {
 
-/// The recipe stays alive. Reads a source of samples, and a source of tolerances, at most once, now or when the search
-/// begins. Throws SourceFailure.
+/// The recipe must stay alive. Reads a source of samples, and a source of tolerances, at most once, now or when the
+/// search begins. Throws SourceFailure.
 BudgetTask make_budget_task(const Recipe& recipe);
 
 }  // namespace scarp

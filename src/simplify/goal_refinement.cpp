@@ -200,7 +200,7 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
   if (!refinement_)
     refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
                         Refinement::Start::kClean);
-  // Rounding of a vertex among them breaks the bound, and no other vertex can mend that.
+  // If a vertex is among them, its rounding breaks the bound, and no other vertex can mend that.
   const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
   // To remove a fold, any sample may be named.
   const auto is_useless = [&](const Offender& o) {

@@ -24,7 +24,7 @@ namespace scarp {
 /// Owns the piece, which covers the raster, and during insertion the errors of its samples.
 class GoalRefinement {
  public:
-  /// `border`: the vertices of a locked border (locked_border.h); EMPTY: none. All outlive it.
+  /// `border`: the vertices of a locked border (locked_border.h); EMPTY: none. All arguments must outlive this object.
   GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion, std::span<const Point> border,
                  Reporter& reporter);
 
@@ -33,8 +33,8 @@ class GoalRefinement {
   Result<void> start(Simplified& result);
   /// Makes the piece from an existing mesh of the domain.
   void start_with(DomainMesh domain);
-  /// Inserts from the seeds on, by the strategy. Fails if even the seeds exceed a budget, with kInput for too many
-  /// triangles, with kCancelled, and for too little memory.
+  /// Inserts samples from the seeds on, by the strategy. Fails if even the seeds exceed a budget, if there are too many
+  /// triangles (kInput) or too little memory, and if cancelled (kCancelled).
   Result<void> run(Simplified& result);
   /// Inserts the samples that a mesh of other passes lacks, worst first. Fails like run().
   Result<void> run_on(Simplified& result);
@@ -52,7 +52,7 @@ class GoalRefinement {
 
   /// True if every sample of the rectangle is a height.
   bool is_whole() const { return is_whole_; }
-  /// Number of corners of the rectangle that are no vertex of the domain.
+  /// Number of corners of the rectangle that are not vertices of the domain.
   std::uint32_t unused() const { return unused_; }
   std::uint64_t vertices() const { return piece_->tin.vertex_count() - unused_; }
   /// Proves that no pass has changed a locked border.
@@ -76,8 +76,8 @@ class GoalRefinement {
   double fraction(double first_error) const;
   /// True while the best prefix is searched for.
   bool in_last_stretch() const;
-  /// The max error is not monotone, so a budget may stop at a peak. GoalRefinement is deterministic, so the same
-  /// points, inserted again, give an earlier mesh without reading a sample.
+  /// The max error is not monotone, so a budget may stop insertion at a peak. GoalRefinement is deterministic, so
+  /// inserting the first points again restores an earlier mesh without reading a sample.
   void take_best_prefix();
   void finish_edges(Simplified& result);
 

@@ -1,4 +1,4 @@
-// Prepares the lines of a run: before it, or in parallel to the refinement of tiles that needs no lines.
+// Prepares the lines of a run: before the run, or in parallel with the refinement of tiles if that needs no lines.
 #pragma once
 
 #include "lines/field_lines.h"
@@ -10,10 +10,10 @@ namespace scarp {
 
 class LineWork {
  public:
-  /// Uses lines and cutline of the recipe, which stays alive; `tolerance` as for prepare_lines().
+  /// Uses lines and cutline of the recipe, which must stay alive; `tolerance` as for prepare_lines().
   LineWork(const Recipe& recipe, double tolerance) : recipe_(recipe), tolerance_(tolerance) {}
 
-  /// True if the refinement of tiles need not wait for the lines: they change no sample and cut nothing, all are in
+  /// True if the refinement of tiles need not wait for the lines: they change no sample and cut nothing, all are within
   /// reach of the lattice, and there is a second thread.
   bool may_wait() const;
   /// Calls prepare_lines() the first time only, and fails like it.

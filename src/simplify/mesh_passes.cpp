@@ -33,7 +33,7 @@ namespace {
 
 static_assert(kMostFitFields > kMaxChannels);
 
-/// The norm that fitting bounds; nothing if only unweighted heights matter. The criterion stays alive.
+/// The norm that fitting bounds; nothing if only unweighted heights matter. The criterion must stay alive.
 std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
   const std::vector<MetricField> fields = criterion.metric_fields();
   if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
@@ -324,8 +324,8 @@ class MeshPasses {
     if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
   }
 
-  /// Searches for breaches that the first proof would find before the mesh is sorted and its topology judged, which
-  /// need longer. The proof handles faults that this cannot mend.
+  /// Searches for breaches before the mesh is sorted and its topology is judged, which needs longer. The proof handles
+  /// faults that this function cannot mend.
   Result<void> mend_ahead(Simplified& result) {
     const auto start = Clock::now();
     SCARP_TRY(const auto& found, prove(recipe_, criterion_, exact_, Look::kHeights, result));

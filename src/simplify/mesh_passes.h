@@ -14,10 +14,10 @@ namespace scarp {
 
 struct ConstraintGraph;
 
-/// Carries out a recipe on `raster`, the samples of its field: from the mesh of the dominant order if `tiled` is given,
-/// else greedily. `lines`: lines to insert into the mesh; null: none. `border`: the vertices of a locked border, whose
-/// raster is then `raster` (locked_border.h); empty: none. Fails like simplify(). REQUIRES: `criterion` was made for
-/// the recipe; all outlive the call.
+/// Carries out a recipe on `raster`, the samples of its field. Starts from the mesh of the dominant order if `tiled` is
+/// given, else inserts greedily. `lines`: lines to insert into the mesh; null: none. `border`: the vertices of a locked
+/// border, whose raster is then `raster` (locked_border.h); empty: none. Fails like simplify(). REQUIRES: `criterion`
+/// was made for the recipe; all outlive the call.
 Result<Simplified> run_passes(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
                               const ConstraintGraph* lines, std::optional<Tiled> tiled,
                               std::span<const Point> border = {});

@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Bytes of a vertex and its two triangles of a finished mesh, in addition to the mesh of the run.
+/// Bytes of a vertex and its two triangles in a finished mesh, in addition to the mesh of the run.
 inline constexpr std::uint64_t kMeshBytesPerVertex = 48;
 
 inline Pass pass_of(std::string_view name, double seconds, const Work& work = {}) {

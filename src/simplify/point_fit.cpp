@@ -20,8 +20,8 @@ constexpr double kUsualShape = 0.1;
 constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
 
 /// The points, including those that share a lattice point. A point whose bound b is smaller than the threshold t
-/// becomes two samples, t − b above and below: errors of at most t at both mean an error of at most b at the point.
-/// Without any remaining b, the point is no sample but a vertex or on an edge, and the proof decides.
+/// becomes two samples, t − b above and t − b below it: if the errors at both samples are at most t, the error at the
+/// point is at most b. If no b remains, the point is not a sample: it is a vertex or on an edge, and the proof decides.
 class AllSamples {
  public:
   AllSamples(const SnappedPoints& points, const PointRecipe& recipe) : recipe_(recipe) {

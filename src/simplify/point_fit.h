@@ -18,7 +18,7 @@ struct PointFit {
 };
 
 /// Removes vertices, moves others if the effort does so, and updates the domain. `fixed`: sorted points whose vertices
-/// stay. `heights`: of points as vertices. Fails with kCancelled. REQUIRES: every point satisfies
+/// stay. `heights`: heights of points as vertices. Fails with kCancelled. REQUIRES: every point satisfies
 /// recipe.aims.refinement. Triangles wider than kMaxFitSteps of the lattice do not change.
 Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double> heights,
                             std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain);

@@ -19,7 +19,6 @@ namespace scarp {
 
 namespace {
 
-/// A polygon with its holes.
 struct Polygon {
   std::vector<const Line*> rings;
   RingBands bands;

@@ -11,11 +11,11 @@
 
 namespace scarp {
 
-/// Fails with kUsage without a goal, and for a number out of range or options that exclude each other.
+/// Fails with kUsage if there is no goal, a number is out of range, or options exclude each other.
 Result<void> check_point_options(const PointSet& points, const PointOptions& options);
 
-/// The bounds of passes towards a max error. Fitting reads heights as float32; their rounding and a share for that of
-/// positions are subtracted from the bound. If no bound remains, there is no fitting.
+/// The bounds of passes towards a max error. Fitting reads heights as float32; the rounding of heights and a share for
+/// the rounding of positions are subtracted from the bound. If no bound remains, there is no fitting.
 struct PointAims {
   double refinement = 0, fit = 0;
 
@@ -41,7 +41,7 @@ struct PointRecipe {
   bool removes;         ///< vertices are removed after refinement
   bool searches;        ///< runs for several errors find the mesh of a budget
   bool frees_vertices;  ///< vertices may move off the points
-  bool removes_last;    ///< after vertices for angles and edges, whose goals removal preserves
+  bool removes_last;    ///< vertices are removed after those for angles and edges, whose goals removal preserves
   PointSteps steps;     ///< lattice of the points
 };
 

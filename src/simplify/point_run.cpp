@@ -196,8 +196,8 @@ class PointRun {
   /// True while the best prefix is searched for.
   bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
-  /// The max error is not monotone, so a budget may stop at a peak. The same points, inserted again, give an earlier
-  /// mesh.
+  /// The max error is not monotone, so a budget may stop insertion at a peak. Inserting the first points again restores
+  /// an earlier mesh.
   void take_best_prefix() {
     if (fits_ || refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.point_of.size()) return;
     const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
@@ -364,7 +364,7 @@ class PointRun {
     std::size_t point;
     double bound, error;
   };
-  /// With tolerances, a point that exceeds its own; else the worst point.
+  /// With tolerances, a point that exceeds its tolerance; else the worst point.
   Broken find_broken(const Measurement& m) const {
     if (options_.tolerances.empty() || m.offenders.empty())
       return {static_cast<std::size_t>(m.max_error_at[0]), bound_, m.max_error};

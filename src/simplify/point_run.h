@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-/// Points ready for runs. All stay alive.
+/// Points ready for runs. All referenced objects must stay alive.
 struct PointTask {
   const PointSet& points;
   const SnappedPoints& snapped;

@@ -75,7 +75,6 @@ double round_down(double value) {
   return keep_six_digits(below <= value ? below : below - unit);
 }
 
-/// Sets base and placement.
 Result<void> place_print(const PrintOptions& options, const Mesh& terrain, Print& print) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -183,8 +182,8 @@ Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print,
   return std::optional(std::move(*tiles));
 }
 
-/// Places, cuts and closes the terrain, whose edges include the cuts, and judges the tops against the samples, if
-/// necessary those within the cutline.
+/// Places, cuts and closes the terrain, whose edges include the cuts. Judges the tops against the samples, if necessary
+/// only against those within the cutline.
 Result<Print> make_print(const PrintOptions& options, const HeightField& field,
                          const std::optional<PrintTilePlan>& tiles, const Mesh& terrain, const Cutline* cutline,
                          int threads) {

@@ -105,7 +105,7 @@ struct AskedOfRow {
   bool is_bounded(std::size_t x) const { return bounds.empty() || !std::isinf(bounds[x]); }
 };
 
-/// The error of a sample relative to its requested bound, before the search for a budget's mesh multiplied it.
+/// The error of a sample relative to its requested bound, before the search for a budget's mesh multiplied this bound.
 struct ShareOfBound {
   double most = HUGE_VAL;  ///< in addition to the tolerance
   double reserve = 0;      ///< for the rounding of samples
@@ -119,8 +119,8 @@ struct ShareOfBound {
 };
 
 /// Collects norms of errors, row by row: weighted errors, the largest norm, the samples that break a bound. The rows'
-/// errors and each step of their norm are rounded to float32, so an error that near a bound is doubtful: it breaks the
-/// bound if mending is possible, else it does not.
+/// errors and each step of their norm are rounded to float32, so an error within this rounding of a bound is doubtful.
+/// It counts as a breach if mending is possible, else it does not.
 class SampleVerdict {
  public:
   /// `fields`: number of fields in the norms.
@@ -186,7 +186,6 @@ class SampleVerdict {
   std::uint64_t count_ = 0, judged_ = 0;
 };
 
-/// Judges all samples of the tally.
 void judge_samples(const SimplifyOptions& options, const Criterion& criterion, const HeightField& field,
                    const Tally& tally, SampleVerdict& verdict) {
   const auto cols = static_cast<std::size_t>(field.cols);

@@ -35,7 +35,6 @@ Result<Criterion> make_criterion(const Recipe& recipe, const Raster& raster) {
 
 const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
 
-/// `raster`: the samples in memory to refine.
 Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
                                           const ConstraintGraph* lines, StripTotals& strips) {
   const HeightField& field = recipe.field;

@@ -114,7 +114,7 @@ class SquaresSearch {
   BudgetNumber number_;
   Budget budget_;
   SearchProgress progress_;
-  bool is_saturated_ = false;  // smaller errors need few more triangles: the mesh nearly follows every sample
+  bool is_saturated_ = false;  // smaller errors need only slightly more triangles: the mesh nearly follows every sample
 };
 
 }  // namespace

@@ -104,7 +104,6 @@ std::vector<Passed> find_passed(const SpotsByRow& spots, const Line& line, doubl
   return passed;
 }
 
-/// The neighbours of each vertex.
 class Neighbours {
  public:
   explicit Neighbours(const Mesh& mesh) : begins_(mesh.vertex_count() + 1) {
@@ -166,7 +165,7 @@ std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Li
     places.push_back(map_of(mesh, to_map, mesh.positions[3 * v], mesh.positions[3 * v + 1]));
   const SpotsByRow spots(std::move(places));
   const Neighbours neighbours(mesh);
-  constexpr std::size_t kAhead = 8;  // most vertices next to the line between two of its chain
+  constexpr std::size_t kAhead = 8;  // most vertices next to the line between two vertices of its chain
   std::vector<NodeString> strings;
   for (const Line& line : lines) {
     const std::vector<Passed> passed = find_passed(spots, line, reach);

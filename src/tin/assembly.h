@@ -62,7 +62,7 @@ class Assembly {
   Triangulation finish(std::vector<HalfEdge>& seams);
 
  private:
-  /// An edge on a border, by the coordinate of its start.
+  /// An edge on a border, identified by the coordinate of its start.
   struct BorderEdge {
     std::int32_t at;
     HalfEdge edge;

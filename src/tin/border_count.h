@@ -7,8 +7,8 @@
 
 namespace scarp {
 
-/// Number of triangles in any triangulation of the domain whose only vertices are the corners of its border. Cost:
-/// O(triangles).
+/// Number of triangles in any triangulation of the domain that uses only the corners of the domain's border as
+/// vertices. Cost: O(triangles).
 std::uint64_t count_border_triangles(const Triangulation& tin);
 
 }  // namespace scarp

@@ -3,8 +3,8 @@
 // The edges that the segment crosses are flipped away in turn (S. W. Sloan, "A fast algorithm for generating
 // constrained Delaunay triangulations", Computers & Structures 47, 1993): an edge is flipped if its two triangles form
 // a strictly convex quadrilateral. Otherwise, or if the new edge still crosses, the edge moves to the end of the queue.
-// Then the edges that the flips made are tested again, except the segment. Integers are exact, so a vertex on the
-// segment is recognized and splits it.
+// Then the edges that the flips made are tested again, except the segment. Integer arithmetic is exact, so a vertex on
+// the segment is recognized and splits it.
 #include <algorithm>
 #include <cassert>
 #include <deque>
@@ -112,7 +112,7 @@ void Triangulation::force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& 
     const bool crosses = !touches && sign_of(orient(pa, pb, points_[c])) * sign_of(orient(pa, pb, points_[d])) < 0;
     (crosses ? queue.emplace_back(c, d) : made.emplace_back(c, d));
   }
-  // Lawson's flips until nothing changes; the constraint protects the segment.
+  // Repeats Lawson's flips until nothing changes; the constraint protects the segment.
   set_constrained(find_edge(a, b));
   pending_.clear();
   for (auto [u, w] : made) pending_.push_back(find_edge(u, w));

@@ -131,7 +131,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
 }
 
 TileMesh::Id TileMesh::locate(TilePoint p, Id hint) const {
-  // The first edge varies, since a fixed order could cycle with constraints.
+  // The edge that is tested first varies, since with constraints, a fixed order could cycle.
   std::uint32_t sequence = 12345;
   Link entered = kBorder;
   for (Id t = hint;;) {

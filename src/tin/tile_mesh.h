@@ -1,9 +1,10 @@
 // The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
 //
 // A triangle has 32 bytes, two to a cache line, with all that insertion reads: corners as points, links, and a word for
-// the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds the cavity of
+// the caller (its candidate). There is no array of vertices: a vertex is its point. Each insertion finds the cavity of
 // the point (the triangles whose circumcircle contains it, up to constrained edges), then writes every new triangle
-// once. Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular ties.
+// once. Lawson's flips write most of them several times. Both methods give the same triangulation, up to cocircular
+// ties.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ class TileMesh {
   struct Record {
     std::array<TilePoint, 3> corners;  // positive orientation
     std::array<Link, 3> links;         // links beyond edge k
-    std::int64_t key;                  // for the owner, at least 0; kOutside: not part of the domain
+    std::int64_t key;                  // for the caller, at least 0; kOutside: not part of the domain
   };
   static_assert(sizeof(Record) == 32);
   static constexpr std::int64_t kOutside = -1;
@@ -47,8 +48,8 @@ class TileMesh {
   const Record& operator[](Id t) const { return records_[t]; }
   bool is_outside(Id t) const { return records_[t].key < 0; }
 
-  /// The effect of inserting p: the triangles it removes, and those beyond them. Valid until the next call. REQUIRES: p
-  /// in the closed triangle t, but not a corner of it.
+  /// The effect of inserting p: the removed triangles, and those beyond them. Valid until the next call. REQUIRES: p in
+  /// the closed triangle t, but not a corner of it.
   struct Cavity {
     std::span<const Id> removed;  ///< begins with t
     struct Side {

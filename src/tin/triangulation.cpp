@@ -83,8 +83,8 @@ Triangulation::Location Triangulation::locate_in(Point p, Triangle t) const {
 }
 
 Triangulation::Location Triangulation::locate(Point p, Triangle hint) const {
-  // The walk tests the edges of each triangle from a varying first edge, since a fixed order could cycle with
-  // constraints. The variation is a fixed sequence, not random.
+  // The walk tests the edges of each triangle from a varying first edge, since with constraints, a fixed order could
+  // cycle. The variation is a fixed sequence, not random.
   std::uint32_t sequence = 12345;
   HalfEdge entered = kNone;
   for (Triangle t = hint;;) {
@@ -184,7 +184,7 @@ void Triangulation::flip(HalfEdge h) {
 }
 
 // Each pending edge is opposite to the new vertex in its triangle. A flip replaces it by a spoke and exposes two edges
-// behind it.
+// beyond it.
 void Triangulation::legalize_star(FlipRule* rule) {
   while (!pending_.empty()) {
     const HalfEdge h = pending_.back();

@@ -27,16 +27,16 @@ class FlipRule {
   virtual bool should_flip(const Triangulation& tin, HalfEdge h) = 0;
 };
 
-/// Flat arrays, 32-bit ids; half-edge 3t + k runs from corner k of triangle t to corner k + 1, all triangles positive
-/// (orient() > 0). The triangulation always covers its initial rectangle. It has points and constraints but no heights;
-/// callers give edges and triangles their meaning.
+/// Flat arrays with 32-bit ids. Half-edge 3t + k runs from corner k of triangle t to corner k + 1. All triangles are
+/// positive (orient() > 0). The triangulation always covers its initial rectangle. It has points and constraints but no
+/// heights; callers give edges and triangles their meaning.
 ///
 /// Constrained edges are never flipped. Every other edge between two triangles is locally Delaunay (no corner strictly
 /// inside the neighbour's circle; cocircular ties keep the present edge), unless points were inserted under another
 /// rule. There is no recursion, tolerance or randomness: the same insertions in the same order give the same arrays.
 ///
-/// Triangle slots are reused: inserting a point changes only the triangles around it and adds at most two ids, the
-/// highest (on an interior edge or inside a triangle).
+/// Triangle slots are reused: inserting a point changes only the triangles around it and adds at most two ids at the
+/// end (two on an interior edge or inside a triangle).
 class Triangulation {
  public:
   /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, with the diagonal from south-west to north-east
@@ -72,7 +72,6 @@ class Triangulation {
   bool is_outside(Triangle t) const { return (flags_[t] & kOutside) != 0; }
   void set_outside(Triangle t, bool outside);
 
-  /// The location of a point.
   struct Location {
     enum class Kind { kInside, kOnEdge, kOnVertex } kind = Kind::kInside;
     HalfEdge edge = 0;  ///< kInside: any half-edge of the triangle; kOnEdge: the edge (its lower half-edge); kOnVertex:
@@ -86,7 +85,7 @@ class Triangulation {
 
   /// Inserts p and restores the Delaunay property, or that of `rule`, for edges opposite to the new vertex. Each flip
   /// adds a spoke, so this terminates. Returns the vertex at p. Both halves of a constrained edge stay constrained; p
-  /// may lie off it if all four triangles are positive. Cost: expected O(1).
+  /// may lie off this edge if all four triangles are positive. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
 
   /// Applies the rule to the listed edges, and again to the four edges around each flip, until no edge flips or `most`
@@ -103,7 +102,7 @@ class Triangulation {
   void star(Vertex v, std::vector<Triangle>& triangles) const;
 
   /// Makes the segment between two vertices a chain of constrained edges; vertices on the segment become part of the
-  /// chain. Returns false, without change, if it would cross a constrained edge. REQUIRES: a != b.
+  /// chain. Returns false, without change, if the segment would cross a constrained edge. REQUIRES: a != b.
   bool constrain(Vertex a, Vertex b);
 
   /// Removes the constraint of an edge, on both sides.
@@ -112,8 +111,8 @@ class Triangulation {
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 
-  /// These two release memory. Without links, twins and insertion are unavailable; without triangles, only vertices
-  /// remain.
+  /// The next two functions release memory. Without links, twins and insertion are unavailable; without triangles, only
+  /// vertices remain.
   void drop_links() { twins_.release(); }
   /// Returns the corners of all inside triangles, 3 each, and releases all but the vertices. REQUIRES: no links.
   Array<Vertex> take_corners();

@@ -94,6 +94,7 @@ if has_debian; then
   succeeds "$source_tree/tools/source_tarball.sh" .
   # Unoptimized code compiles in a third of the time.
   export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$scratch/page.html
+  export DPKG_DEB_COMPRESSOR_LEVEL=1
   echo "<!DOCTYPE html>" > "$SCARP_VIEWER_PAGE"
   JOBS=$jobs try "$source_tree/tools/debian_packages.sh" "scarp-$version-source.tar.gz" "$work"
   [ "$code" = 0 ] || { tail -n 50 "$logs/out" >&2; fail "the packages are not built"; }

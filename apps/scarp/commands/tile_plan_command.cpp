@@ -23,7 +23,7 @@ namespace {
 
 using enum OptionId;
 
-/// The default limit of array tasks on clusters.
+/// The default limit for the number of array tasks on clusters.
 constexpr std::uint64_t kMostShards = 1000;
 std::string format_hours(double seconds) {
   return seconds < 7200 ? fmt::format("{} minutes", format_number(std::ceil(seconds / 6) / 10))

@@ -1,4 +1,4 @@
-// Answers made by a few threads, so that a slow one delays no other client.
+// A few threads make the answers, so that a slow answer delays no other client.
 #pragma once
 
 #include <condition_variable>
@@ -34,7 +34,7 @@ class AnswerQueue {
 
   /// Becomes readable when an answer is ready.
   int wake_fd() const { return wake_[0]; }
-  /// Queues a request. REQUIRES: one per client at a time.
+  /// Queues a request. REQUIRES: no other request of the client is queued.
   void ask(std::uint64_t client, Request request);
   /// Drops the client's request unless work on it has begun.
   void forget(std::uint64_t client);
@@ -46,7 +46,7 @@ class AnswerQueue {
     Request request;
   };
   void work();
-  /// The first request whose path no thread is working on.
+  /// The first request for a path on which no thread is working.
   std::list<Asked>::iterator find_next();
 
   Answer answer_;

@@ -35,7 +35,7 @@ class OpenFile {
   int fd_;
 };
 
-/// A part of a file instead of a body.
+/// A part of a file, sent instead of a body.
 struct FilePart {
   std::shared_ptr<const OpenFile> file;
   std::uint64_t offset = 0, length = 0;
@@ -53,7 +53,7 @@ struct Response {
 std::string lowered(std::string_view text);
 /// The text without leading and trailing spaces and tabs.
 std::string_view trimmed(std::string_view text);
-/// Returns the text before the separator, or all of it; removes both from `text`.
+/// Returns the text before the separator, or all text without one. Removes the result and the separator from `text`.
 std::string_view take_until(std::string_view& text, char separator);
 
 /// Status and headers, including Date, Content-Length and Connection.
@@ -72,7 +72,7 @@ struct ByteRange {
   std::uint64_t first = 0, last = 0;  ///< inclusive
 };
 enum class RangeKind {
-  kWhole,       ///< no range, several, or an unknown kind: the answer is the whole file
+  kWhole,       ///< no range, several ranges, or an unknown unit: the answer is the whole file
   kPart,        ///< `range` is set
   kOutOfReach,  ///< starts after the end of the file
 };

@@ -29,13 +29,13 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::size_t kLeastConnections = 16, kChunk = 1 << 16;
-/// An address may use 1 / kShareOfAddress of the places.
+/// An address may use 1 / kShareOfAddress of the connections.
 constexpr std::size_t kShareOfAddress = 2;
-/// Most chunks sent to one client, and most clients accepted, before other work continues.
+/// Maximum number of chunks sent to one client, and of clients accepted, before other work continues.
 constexpr int kMostChunksAtOnce = 16, kMostAcceptedAtOnce = 64;
-/// Bytes of an answer that the system queues; progress shows after each such amount.
+/// Bytes of an answer that the system queues; progress is visible after each such amount.
 constexpr int kMostUnsent = 1 << 16;
-/// More bytes than the buffers of a client that never reads.
+/// More bytes than fit in the buffers of a client that never reads.
 constexpr std::uint64_t kSurelyTaken = 1 << 18;
 constexpr std::size_t kMostWaitingBytes = 64'000'000;
 constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2}, kCredit{5};
@@ -56,7 +56,7 @@ std::size_t find_places() {
   return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMost);
 }
 
-/// The client that a connection counts for: an IPv4 address, or the 64-bit IPv6 network of a household.
+/// The client to which a connection belongs: an IPv4 address, or the 64-bit IPv6 network of a household.
 std::string client_of(const sockaddr_storage& address) {
   const void* const bytes = &address;
   if (address.ss_family == AF_INET) {
@@ -90,7 +90,7 @@ class Connection {
   const std::string& client() const { return client_; }
   short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
-  /// True while the server works on the request: missing progress is not the client's fault.
+  /// True while the server works on the request, when missing progress is not the client's fault.
   bool waits() const { return waits_; }
   /// Time of the last byte in either direction. A client that has received more than buffers hold gets some extra
   /// seconds, since its system may accept more bytes only when half of its buffer is free. Otherwise new connections
@@ -131,7 +131,7 @@ class Connection {
     sent_ = 0;
     file_ = {};
     if (closes_) {
-      // Closing with unread bytes could lose the answer on its way, so the client closes first.
+      // Closing with unread bytes could lose the answer in transit, so the client closes first.
       lingers_ = true;
       deadline_ = moved_ + kToClose;
       return ::shutdown(fd_, SHUT_WR) == 0;
@@ -199,7 +199,7 @@ class Connection {
 
 using Connections = std::vector<std::unique_ptr<Connection>>;
 
-/// Closes the connection of a kind with the longest time without progress; false if there is none.
+/// Closes, among the connections of a kind, the one longest without progress; false if there is none.
 template <class IsOfKind>
 bool close_stuck(Connections& connections, const IsOfKind& is_of_kind) {
   auto stuck = connections.end();
@@ -223,7 +223,7 @@ bool make_place(Connections& connections, std::size_t places, const std::string&
   return connections.size() < places || close_stuck(connections, is_stuck);
 }
 
-/// Closes clients that do not receive their answers before these fill the memory.
+/// Closes clients that do not receive their answers, before the answers fill the memory.
 void limit_waiting_bytes(Connections& connections) {
   const auto waits = [](const Connection& one) { return one.waiting_bytes() > 0; };
   while (true) {

@@ -20,15 +20,15 @@ class HttpServer {
 
   /// "http://127.0.0.1:8080/"
   const std::string& url() const { return url_; }
-  /// Maximum of open connections, if the process may open twice as many files.
+  /// Maximum number of open connections, if the process may open twice as many files.
   static constexpr std::size_t kMostConnections = 4096;
-  /// Serves until is_over(), polled at least twice a second. `answer` is called on `threads` threads, but only on one
-  /// at a time for each path.
-  /// Limits: kMostConnections, or half of the files that the process may open, each with one request; half of them for
-  /// one address. If all are in use, the connection longest without progress is closed, unless the server is working on
-  /// its request. A request has at most kLongestHead and kLongestBody bytes and 10 seconds to arrive. An answer has 30
-  /// seconds to be received, plus one for each 10 kB. If answers of more than 64 MB wait to be received, connections
-  /// without progress are closed first. Fails with kOutput.
+  /// Serves until is_over(), which is polled at least twice a second. `answer` is called on `threads` threads, but only
+  /// on one at a time for each path. Limits: at most kMostConnections are open, or half as many as the process may open
+  /// files. Each has one request at a time. One address may use half of the connections. If all are in use, the
+  /// connection longest without progress is closed, unless the server is working on its request. A request has at most
+  /// kLongestHead and kLongestBody bytes and must arrive within 10 seconds. A client must receive an answer within 30
+  /// seconds, plus one for each 10 kB. If answers of more than 64 MB wait to be received, connections without progress
+  /// are closed first. Fails with kOutput.
   Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
                    const std::function<bool()>& is_over);
 

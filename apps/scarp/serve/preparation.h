@@ -11,13 +11,13 @@ namespace scarp::cli {
 
 class Preparation {
  public:
-  /// Starts immediately, on a thread of low priority. Warns if it fails or `set` has no room for all tiles. Borrows
-  /// `set`.
+  /// Starts immediately, on a thread of low priority. Warns if preparation fails or `set` has no room for all tiles.
+  /// Borrows `set`.
   Preparation(LiveTileSet& set, int threads);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
-  /// Abandons the rest. A tile in progress cannot be stopped. After a second the destructor ends the program with exit
-  /// code 0, since a server has nothing left to write.
+  /// Abandons the remaining tiles. A tile in progress cannot be stopped, so after waiting a second the destructor ends
+  /// the program with exit code 0. A server has nothing left to write.
   ~Preparation();
 
  private:

@@ -13,7 +13,7 @@
 
 namespace scarp::cli {
 
-/// A set as it was when opened.
+/// A set in the state in which it was opened.
 struct OpenedSet {
   std::shared_ptr<const TileSetReader> reader;
   std::shared_ptr<const OpenFile> file;  ///< the file of a single-file set
@@ -29,12 +29,12 @@ struct OpenedSet {
 
 class ServedSet {
  public:
-  /// Fails like open_tile_set().
+  /// Fails if open_tile_set() fails.
   static Result<std::unique_ptr<ServedSet>> open(const std::string& path);
   /// A set that is never replaced.
   explicit ServedSet(std::shared_ptr<const TileSetReader> reader);
 
-  /// The current set, which is reopened if another set replaced its file. May be called concurrently.
+  /// Returns the current set; reopens it if another set replaced its file. May be called concurrently.
   std::shared_ptr<const OpenedSet> now() const;
 
  private:
@@ -46,7 +46,7 @@ class ServedSet {
   mutable std::string stamp_tried_;
 };
 
-/// Identifies a file and its state, whatever its name.
+/// Identifies a file and its state, regardless of its name.
 struct FileStamp {
   std::uint64_t size = 0;
   std::string text;  ///< empty if there is no file

@@ -26,7 +26,7 @@ std::size_t find_level(const TileSetReader& set, std::size_t most_tiles) {
   return found;
 }
 
-/// One level of a set: each further level would cost as much to make.
+/// One level of a set, since each further level would cost as much time.
 class OneLevel final : public TileSetReader {
  public:
   OneLevel(const TileSetReader& set, std::size_t z) : set_(set), tiles_(z + 1) { tiles_[z] = set.tiles()[z]; }
@@ -52,7 +52,6 @@ std::string escape_html(const std::string& text) {
   return safe;
 }
 
-/// Draws a map of the tiles of a level.
 std::string draw_tiles(const TileSetReader& set, std::size_t z) {
   if (z >= set.tiles().size()) return "";
   const TileGrid grid = find_grid(set);

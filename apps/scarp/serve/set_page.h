@@ -10,8 +10,8 @@
 namespace scarp::cli {
 
 /// The viewer with the finest levels that fit into a page, as `scarp view SET` writes it. If the viewer is not
-/// installed or cannot show the set: a map of the tiles. `makes_tiles`: tiles are made on demand, so the page has one
-/// coarse level. `name`: the set's name.
+/// installed or cannot show the set, the page is a map of the tiles. `makes_tiles`: tiles are made on demand, so the
+/// page has one coarse level. `name`: the set's name.
 std::vector<std::uint8_t> make_set_page(const std::string& name, const TileSetReader& set, bool makes_tiles);
 
 /// The files of a set, one URL path per line.

@@ -1,4 +1,4 @@
-// Answers of a server from a tileset, finished or made on demand.
+// Answers of a server, from a finished tileset or from tiles made on demand.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@ namespace scarp::cli {
 
 class TileAnswers {
  public:
-  /// Fails like open_tile_set(). Later serves a set that replaces this one, and new files in its folder.
+  /// Fails if open_tile_set() fails. If another set later replaces this one, serves the new set; also serves new files
+  /// in its folder.
   static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
   /// Answers with tiles made on demand. `name`: the set's name.
   TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);

@@ -13,10 +13,10 @@ namespace scarp::cli {
 
 /// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
 ///
-/// kLine: rewrites one line, starting after one second: pass, percent, vertices, current error, time left in this pass.
-/// kJson: one object per line, at most five per second plus one at the end of each pass. Its keys are pass, fraction,
-/// vertices, max_error, seconds (since construction). In the pass "tiles": tiles, bytes and seconds_left (null before
-/// an estimate) instead of vertices and max_error.
+/// kLine rewrites one line, starting after one second, with pass, percent, vertices, current error, time left in this
+/// pass. kJson prints one object per line, at most five per second plus one at the end of each pass. Its keys are pass,
+/// fraction, vertices, max_error, seconds (since construction). In the pass "tiles", the keys tiles, bytes and
+/// seconds_left (null before an estimate) replace vertices and max_error.
 class ProgressDisplay {
  public:
   enum class Style { kSilent, kLine, kJson };
@@ -36,7 +36,7 @@ class ProgressDisplay {
   /// Ends the last pass and erases the line; nothing is shown afterwards. Call after success.
   void finish();
 
-  /// The style for the flags: kJson if requested, else kLine if stderr is a terminal and `quiet` is false.
+  /// The style for the flags: kJson if requested, else kLine if stderr is a terminal and `quiet` is false, else none.
   static Style choose(bool json, bool quiet);
 
  private:

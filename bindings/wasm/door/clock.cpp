@@ -1,4 +1,4 @@
-// The C++ library's clock can throw, with messages formatted by printf: 10 kB.
+// Replaces the C++ library's clock, which can throw and needs printf for its messages: 10 kB.
 #include <chrono>
 #include <ctime>
 

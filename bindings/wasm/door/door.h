@@ -1,4 +1,5 @@
-// Common parts of all functions of the WebAssembly interface: numbers and messages. No exception leaves them.
+// Common parts of all functions of the WebAssembly interface: numbers and messages. No exception leaves these
+// functions.
 //
 // JavaScript can access memory and doubles. Arguments and results are structs of doubles, which are Float64Arrays in
 // JavaScript; a pointer is passed as its address. The functions are those of bindings/c/scarp_c.h for the core, without

@@ -88,7 +88,7 @@ SCARP_EXPORT(scarp_simplify) WholeMesh* scarp_simplify(const Field* given_field,
   });
 }
 
-/// Positions: 3 doubles a vertex, offsets from the origin, judged unchanged.
+/// Positions: 3 doubles a vertex, as offsets from the origin. They are judged unchanged.
 SCARP_EXPORT(scarp_measure)
 std::int32_t scarp_measure(const Field* given_field, const double* origin, const double* positions, double vertices,
                            const std::uint32_t* corners, double triangles, Report* out) {

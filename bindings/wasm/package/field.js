@@ -1,4 +1,4 @@
-// A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches.
+// A field that changes many times a second, and its mesh: an update remakes only the cells that it touches.
 import { ScarpError } from './error.js';
 import { call, callOrThrow, view, withBlocks } from './module.js';
 import { checkLength, checkSide, putDoubles, putField, refuse, takeBeside, takeRaster, takeWindow } from './heights.js';
@@ -80,13 +80,13 @@ export class Live {
   set(col, row, z) {
     this.update({ col, row, cols: 1, rows: 1 }, [z]);
   }
-  /// Moves the field over the ground; samples that come into it are voids.
+  /// Moves the field over the ground; new samples are voids.
   scroll(cols, rows) {
     for (const [name, value] of Object.entries({ cols, rows })) checkWhole(name, value);
     callOrThrow('scarp_live_scroll', [this.#handle, cols, rows]);
   }
 
-  /// The cells that changed after the version `since`; after 0 all that have a surface.
+  /// The cells that changed after the version `since`; for 0, all cells with a surface.
   changes(since = 0) {
     if (!Number.isSafeInteger(since) || since < 0)
       refuse(`since is ${show(since)}; it is the version of earlier changes`);

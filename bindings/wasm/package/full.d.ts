@@ -16,7 +16,7 @@ export interface TilerOptions {
   maxZoom?: number;
   /** Max error of the finest level, in metres. */
   maxError?: number;
-  /** A level's max error is the error that clients assume, divided by this. */
+  /** A level's max error is the error that clients assume, divided by this factor. */
   quality?: number;
   effort?: 'fast' | 'normal' | 'high';
   /** Height for nodes without a height. */

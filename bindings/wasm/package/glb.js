@@ -1,4 +1,4 @@
-// GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of arrays by vertex and indices.
+// GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of vertex attributes and indices.
 import { ScarpError } from './error.js';
 import { checkFloat32 } from './heights.js';
 import { checkMesh } from './mesh.js';
@@ -136,8 +136,8 @@ function findStep(values, axis, low, { unit, finest, most, slack = 0 }) {
   return null;
 }
 
-/// Positions, unchanged, as 16-bit numbers with y up, or, for float64 positions beyond these, as whole numbers in
-/// float32. null if there is no such grid.
+/// Positions, unchanged, as 16-bit numbers with y up, or, for float64 positions beyond 16 bits, as whole numbers in
+/// float32. null if no grid fits.
 function findGrid({ positions, cell = [0, 0], origin }) {
   const { min, max } = bounds(positions);
   const areDoubles = kindOf(positions) !== 'Float32Array';

@@ -3,8 +3,8 @@ import { ScarpError } from './error.js';
 import { article, kindOf, show } from './options.js';
 
 export const FARTHEST = '3.4028235e38';
-/// Arrays are identified by name, which is the same in every realm: those of a frame or of jsdom are no instances of
-/// ours.
+/// Arrays are identified by class name, since arrays of another realm, such as a frame or jsdom, are no instances of
+/// this realm's classes.
 const EXACT = ['Float32Array', 'Int16Array', 'Uint16Array', 'Int8Array', 'Uint8Array', 'Uint8ClampedArray'];
 const isFloat32 = values => kindOf(values) === 'Float32Array';
 /// Max number of four-byte samples in a module's memory.
@@ -119,7 +119,7 @@ const voidNodata = ({ samples, nodata }) =>
 /// The float32 samples of a raster, where NaN is nodata.
 export const takeRaster = (z, width, height, nodata) => voidNodata(checkHeights(z, width, height, nodata));
 
-/// The same of a window of it.
+/// The float32 samples of a window of it.
 export function takeWindow(z, cols, rows, nodata) {
   const given = checkArray('the heights', z, NaN);
   checkLength('the array of heights', given, cols * rows, `a window of ${cols} x ${rows}`);
@@ -132,7 +132,7 @@ export function putDoubles(blocks, ...numbers) {
 }
 
 /// A value for each sample, in float32; undefined without values. Rounded so that no bound grows: tolerances towards 0,
-/// weights away from it.
+/// weights away from 0.
 export function takeBeside(name, values, width, height) {
   if (values === undefined) return undefined;
   checkLength(name, values, width * height, `a raster of ${width} x ${height}`);
@@ -148,7 +148,7 @@ export function takeBeside(name, values, width, height) {
   return rounded;
 }
 
-/// A Field of the door (door.h), whose samples `blocks` hold.
+/// A Field of the door (door.h), with its samples in `blocks`.
 export function putField(blocks, z, width, height, { nodata, transform, degrees = false } = {}) {
   const { samples, rounding, nodata: hole } = checkHeights(z, width, height, nodata);
   if (degrees && !transform) refuse('degrees: true needs a transform, which says where the samples lie');

@@ -1,4 +1,4 @@
-// A small raster to simplify before the caller's: WebAssembly engines optimise code that has run.
+// A small raster to simplify before the caller's raster: WebAssembly engines optimise code that has run.
 export const SIDE = 65;
 export const hills = () =>
   Float32Array.from({ length: SIDE * SIDE }, (_, k) => {

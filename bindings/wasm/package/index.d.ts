@@ -101,7 +101,8 @@ export interface Goals {
 }
 
 export interface Options extends Goals, Place {
-  /** fast: the mesh of insertion; normal: about half its triangles; high: about a third, in some ten times the time. */
+  /** fast: the mesh of insertion. normal: about half the triangles of fast. high: about a third, in some seven
+   * times the time of normal. */
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   vertices?: 'auto' | 'samples' | 'free';
   order?: 'auto' | 'greedy' | 'dominant';
@@ -121,7 +122,7 @@ export interface Options extends Goals, Place {
   /** Makes positions float64. A GLB without compress rounds them to float32: measure that file, or omit doubles and
    * lattice. */
   doubles?: boolean;
-  /** Edges of the raster depend on their own samples only: neighbours that share them match. */
+  /** Each edge of the raster depends only on its own samples, so neighbours that share it match. */
   lockBorder?: boolean;
   /** A weight for each sample: weight * |error| is bounded. 0: no bound. Rounded up to float32. */
   mask?: Numbers | null;
@@ -150,7 +151,8 @@ export interface Report {
   stray: number;
   /** Largest error for the given heights: that for the float32 heights, plus sampleRounding. */
   maxError: number;
-  /** The largest rounding of a height to float32; 0 if all fit. All other errors refer to the float32 heights. */
+  /** The largest rounding of a height to float32; 0 if all heights fit. All other errors refer to the float32
+   * heights. */
   sampleRounding: number;
   /** Column and row. */
   maxErrorAt: [number, number] | null;
@@ -170,14 +172,14 @@ export interface Report {
 
 /** x east, y north, z up; vertex v lies at origin + positions[3v .. 3v + 2]. */
 export class Mesh {
-  /** Float32Array; Float64Array with lattice or doubles, and of a Refiner with a transform beyond float32. */
+  /** Float32Array; Float64Array with lattice or doubles, and for a Refiner whose transform exceeds float32. */
   positions: Floats | Doubles;
   /** Counter-clockwise from above. */
   indices: Corners;
   normals?: Floats;
   uvs?: Floats;
   origin: [number, number, number];
-  /** Sides of the raster's cell along x and y, of either sign; 0 without any. */
+  /** Sides of the raster's cell along x and y, of either sign; 0 if there is no cell. */
   cell: [number, number];
   /** The largest error, proven on this mesh. */
   maxError: number;
@@ -195,7 +197,7 @@ export function simplifySync(z: Heights, width: number, height: number, options:
 /** Simplifies in a worker of a common pool. */
 export function simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
 
-/** Judges a mesh by brute force, regardless of its origin. */
+/** Judges a mesh by brute force, regardless of how it was made. */
 export function measure(
   z: Heights,
   width: number,
@@ -212,7 +214,7 @@ export interface PointOptions extends Goals {
   onProgress?: (progress: Progress) => boolean | void;
 }
 export interface PoolOptions {
-  /** Number of workers. Default: one less than cores, at most 4. */
+  /** Number of workers. Default: one less than the number of cores, at most 4. */
   size?: number;
   /** Creates a worker from the script scarp/worker, for bundlers that do not find it. */
   worker?: (() => WorkerLike) | null;
@@ -238,13 +240,14 @@ export class Refiner {
   readonly vertexCount: number;
   readonly triangleCount: number;
   mesh(): Mesh;
-  /** Frees its memory at once. The garbage collector does so late, since it does not know the size. */
+  /** Frees its memory at once. The garbage collector frees it late, since it does not know the size. */
   free(): void;
 }
 
 /**
- * Encodes a GLB file (glTF 2.0, y up) with float32 positions: float64 ones are rounded. compress: by meshoptimizer's
- * codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, with 16 bits each.
+ * Encodes a GLB file (glTF 2.0, y up) with float32 positions: float64 positions are rounded. compress: by
+ * meshoptimizer's codec (EXT_meshopt_compression); positions of simplify() with lattice keep their values, with 16 bits
+ * each.
  */
 export function encodeGlb(
   mesh: { positions: Numbers; indices: Numbers; normals?: Numbers; uvs?: Numbers; origin?: Numbers; cell?: Numbers },

@@ -3,12 +3,13 @@ import type { Floats, Heights, Mesh, Numbers, Place } from './index.js';
 export * from './index.js';
 
 export interface LiveOptions extends Place {
-  /** Every sample, as float32, is within this of the mesh, vertically, after every change. Required without a budget. */
+  /** Bound on the vertical distance of every float32 sample from the mesh after every change. Required without a
+   * budget. */
   maxError?: number;
   /**
-   * A budget: the largest number of triangles after every change. Bounds rise and fall for it; the property maxError is
-   * the result. Fields of 50 cells or more mostly use at least 98 % of it, unless fewer triangles keep maxError (0 by
-   * default here) or reproduce the samples. Not with tolerance.
+   * A budget: the largest number of triangles after every change. Bounds rise and fall to keep it; the property
+   * maxError is the resulting bound. Fields of 50 cells or more mostly use at least 98 % of the budget, unless fewer
+   * triangles keep maxError (0 by default here) or reproduce the samples. Not with tolerance.
    */
   maxTriangles?: number;
   effort?: 'fast' | 'normal' | 'high';
@@ -28,7 +29,7 @@ export interface LiveWindow {
 }
 /** The mesh of a cell, ready for a GPU. */
 export interface LiveCell {
-  /** Its place in a renderer's buffer: at most one cell has it, also while the field moves. */
+  /** Its place in a renderer's buffer: at most one cell has this place, also while the field moves. */
   slot: number;
   /** The change that made it. */
   version: number;
@@ -50,20 +51,21 @@ export interface LiveChanges {
 
 export interface Live extends Disposable {}
 /**
- * A field that changes many times a second, and its mesh: an update makes only the cells anew that it touches. After
- * any changes the mesh has the bytes of one made from the final samples at the same place; with maxTriangles it also
- * depends on earlier changes. A failed call changes nothing. With another entry of the package loaded first, its
- * constructor fails.
+ * A field that changes many times a second, and its mesh: an update remakes only the cells that it touches. After any
+ * changes, the mesh has the bytes of a mesh made from the final samples at the same place; with maxTriangles it also
+ * depends on earlier changes. A failed call changes nothing. The constructor fails if another entry of the package was
+ * loaded first.
  */
 export class Live {
   constructor(z: Heights, width: number, height: number, options: LiveOptions);
-  /** Replaces the samples of a window, row by row, and their tolerances, if the field has them (none: they stay). */
+  /** Replaces the samples of a window, row by row; also their tolerances, if given to a field that has tolerances. */
   update(window: LiveWindow, z: Heights, options?: { tolerance?: Numbers | null }): void;
   /** Replaces one sample. */
   set(col: number, row: number, z: number | null): void;
-  /** Moves the field over the ground, so many columns east and rows down; samples that come into it are voids. */
+  /** Moves the field over the ground, by columns to the east and rows down; new samples are voids. */
   scroll(cols: number, rows: number): void;
-  /** The cells that changed after the version `since`, those that became empty included; after 0 all with a surface. */
+  /** The cells that changed after the version `since`, including those that became empty; for 0, all cells with a
+   * surface. */
   changes(since?: number): LiveChanges;
   /** All cells as one mesh, without a report. */
   mesh(): Mesh;
@@ -75,6 +77,6 @@ export class Live {
   readonly maxError: number;
   readonly triangleCount: number;
   readonly slotCount: number;
-  /** Frees its memory at once. The garbage collector does so late, since it does not know the size. */
+  /** Frees its memory at once. The garbage collector frees it late, since it does not know the size. */
   free(): void;
 }

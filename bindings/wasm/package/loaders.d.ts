@@ -1,6 +1,6 @@
 import type { Numbers } from './index.js';
 
-/** Other options fail by name; the loader ignores loaders.gl's tesselator and workerUrl. */
+/** Other options cause an error that names them; the loader ignores loaders.gl's tesselator and workerUrl. */
 export interface TerrainOptions {
   /** West, south, east, north of the mesh. Default: pixels. */
   bounds?: Numbers | null;

@@ -1,5 +1,5 @@
-// Replaces loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: unchanged heights, without a border of zeros, and a
-// guaranteed max error. Loads images of tiles (terrarium, mapbox or any elevationDecoder) as meshes. It needs no
+// Replaces loaders.gl's TerrainLoader, for deck.gl's TerrainLayer: it keeps heights unchanged, adds no border of zeros,
+// and guarantees a max error. Loads images of tiles (terrarium, mapbox or any elevationDecoder) as meshes. It needs no
 // ready().
 import { ScarpError, decodeTile, ready, simplifySync } from './index.js';
 import { show, takeOptions } from './options.js';
@@ -13,8 +13,8 @@ const DEFAULTS = {
   effort: 'fast',
 };
 
-/// Samples lie at their pixels' centres. The mesh extends to the pixels' outer edges, where the next tile begins: its
-/// border is the outer samples, moved there. So neighbours differ by half a pixel.
+/// Samples lie at their pixels' centres. The mesh extends to the pixels' outer edges, where the next tile begins: the
+/// outer samples are moved there to form the border. So neighbours differ by half a pixel.
 function attributesOf(mesh, width, height, bounds) {
   const [west, south, east, north] = bounds ?? [0, 0, width, height];
   const {

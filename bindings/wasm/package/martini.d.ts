@@ -4,7 +4,7 @@ export { ready } from './index.js';
 export interface Tile {
   /** Vertices as columns and rows from the top, within maxError. */
   getMesh(maxError?: number): { vertices: Uint16Array; triangles: Uint32Array };
-  /** Vertices from numVerticesWithoutSkirts on lie below those of the edges. */
+  /** Vertices from numVerticesWithoutSkirts on lie below the vertices of the sides. */
   getMeshWithSkirts(maxError?: number): {
     vertices: Uint16Array;
     triangles: Uint32Array;

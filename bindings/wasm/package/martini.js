@@ -31,8 +31,8 @@ class Tile {
     return { vertices, triangles: Uint32Array.from(indices) };
   }
 
-  /// The same with skirts: a second vertex below each one on the edges, two triangles for each of their edges. Vertices
-  /// from numVerticesWithoutSkirts on are skirts.
+  /// The same with skirts: a second vertex below each vertex on the sides, and two triangles for each edge along the
+  /// sides. Vertices from numVerticesWithoutSkirts on are skirts.
   getMeshWithSkirts(maxError = 0) {
     const { vertices, triangles } = this.getMesh(maxError);
     const count = vertices.length / 2;

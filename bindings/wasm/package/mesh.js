@@ -102,7 +102,8 @@ export function checkMesh(mesh) {
   return { positions, indices, origin, cell, normals, uvs };
 }
 
-/// Returns the mesh of a handle, and frees it. `doubles`: positions are float64, as always if float32 would move them.
+/// Returns the mesh of a handle, and frees it. `doubles`: positions are float64, as they always are if float32 would
+/// move them.
 export function takeMesh(blocks, handle, { doubles = false, rounding = 0 } = {}) {
   try {
     const out = blocks.allocate(8 * (VIEW + REPORT));

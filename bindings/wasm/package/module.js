@@ -54,7 +54,7 @@ const IMPORTS = {
 
 const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', which holds it";
 
-/// Checks the bytes from `where`: a server that sends a page instead of a missing file reports success.
+/// Checks the bytes from `where`, since a server may send a page instead of a missing file and report success.
 function checkBytes(bytes, where) {
   const first = ArrayBuffer.isView(bytes)
     ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
@@ -78,7 +78,7 @@ function refuse(error) {
   );
 }
 
-/// The bytes at an address; in Node also those of a file, which its fetch() cannot read.
+/// The bytes at an address; in Node also the bytes of a file, which its fetch() cannot read.
 async function fetchBytes(address) {
   let url = address;
   try {

@@ -147,7 +147,7 @@ const NEEDS = {
   tiler: 'give { bounds: [west, south, east, north] }',
 };
 
-/// The number of a choice in the library's list of them.
+/// The number of a choice in the library's list of choices.
 export const choose = (name, value) => TABLE[name].list.indexOf(value);
 
 export const article = noun => `${/^[aeiou]/i.test(noun) ? 'an' : 'a'} ${noun}`;

@@ -287,5 +287,5 @@ class Pool {
 export const createPool = options => new Pool(options);
 
 let common = null;
-/// The pool of calls without their own.
+/// The pool for calls that have no pool of their own.
 export const pool = () => (common ??= createPool());

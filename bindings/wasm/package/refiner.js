@@ -50,7 +50,7 @@ export class Refiner {
           `${rounding}; ask for that or more, or subtract a base from the heights`,
       );
     }
-    // Slightly less, so that the sum is not rounded above it.
+    // Slightly less, so that bound + rounding is not rounded above maxError.
     const bound = rounding > 0 ? Math.max(0, maxError * (1 - 2 ** -52) - rounding) : maxError;
     return this.#insert(maxError === undefined ? 0 : bound, maxVertices, Infinity);
   }

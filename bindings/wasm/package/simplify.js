@@ -68,7 +68,7 @@ export function simplifySync(z, width, height, options = {}, flag = undefined) {
   });
 }
 
-/// Judges a mesh by brute force, regardless of its origin.
+/// Judges a mesh by brute force, regardless of how it was made.
 export function measure(z, width, height, mesh, options = {}) {
   const place = takeOptions(options, 'place');
   const { positions, indices, origin } = checkMesh(mesh);

@@ -1,6 +1,6 @@
 // Walls below the edges of a mesh, which hide the cracks between tiles.
 
-/// `tops`: for each new vertex the one above it. `indices`: all triangles, those of walls last.
+/// `tops`: for each new vertex, the vertex above it. `indices`: all triangles, with the walls last.
 export function buildSkirts(indices, vertexCount) {
   const edges = new Map();
   for (let k = 0; k < indices.length; ++k) {

@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// The samples of `source`, masked by CutRows::mask_beyond(). Cost: that of the window.
+/// The samples of `source`, masked by CutRows::mask_beyond().
 class CutSource final : public SampleSource {
  public:
   CutSource(const SampleSource& source, std::shared_ptr<const CutRows> cut) : source_(source), cut_(std::move(cut)) {}

@@ -11,7 +11,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// A mask that shows more than the declared nodata value: a mask band, an alpha band, nodata by colour.
+/// A mask that marks more than the declared nodata value: a mask band, an alpha band, nodata by colour.
 GDALRasterBandH find_mask(GDALDatasetH dataset, GDALRasterBandH band, const ReadOptions& options) {
   const int flags = GDALGetMaskFlags(band);
   const bool by_value = (flags & GMF_NODATA) != 0;

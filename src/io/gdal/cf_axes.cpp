@@ -32,7 +32,7 @@ using Group = Owned<GDALGroupH, GDALGroupRelease>;
 using Array = Owned<GDALMDArrayH, GDALMDArrayRelease>;
 using Type = Owned<GDALExtendedDataTypeH, GDALExtendedDataTypeRelease>;
 
-constexpr double kMostUneven = 0.05;  // share of a cell; the precision of float32 coordinates
+constexpr double kMostUneven = 0.05;  // fraction of a cell; allows for float32 coordinates
 
 bool is_netcdf(GDALDatasetH dataset) {
   GDALDriverH driver = GDALGetDatasetDriver(dataset);
@@ -89,7 +89,7 @@ std::vector<double> to_mercator(std::vector<double> latitudes) {
   return latitudes;
 }
 
-/// GDAL shows the northern row first if it assumes even rows, otherwise the last one of the file.
+/// GDAL returns the northernmost row first if it assumes even rows. Otherwise, it returns the file's last row first.
 std::string place_in_mercator(const Axes1D& axes, bool is_placed, const std::string& path) {
   constexpr double kRadius = 6378137;
   std::vector<double> x = axes.x, y = to_mercator(axes.y);

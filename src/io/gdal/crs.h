@@ -28,7 +28,7 @@ using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, Destroy
 Crs declared_crs(GDALDatasetH dataset);
 /// The raster's CRS; null if none.
 Crs crs_of(GDALDatasetH dataset);
-/// Null for null and for a CRS without a name.
+/// A copy; null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
 /// Like find_crs(), but preserves a vertical datum and the order of axes.
@@ -40,7 +40,7 @@ Crs find_crs(const std::string& definition);
 
 /// "EPSG:32611" if its authority code is known, else WKT.
 std::string crs_name(const Crs& crs);
-/// WKT version of 2019, which supports vertical datums. Empty for null.
+/// WKT of 2019, which supports vertical datums. Empty for null.
 std::string wkt_with_heights(const Crs& crs);
 /// "EPSG:26917+5703" if both parts of a compound CRS are known, "EPSG:4979" for a three-dimensional one; else empty.
 std::string name_with_heights(const Crs& crs);
@@ -49,8 +49,8 @@ std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
 
-/// Fails with kInput if the CRS is in degrees and the centre far outside their range. `way`: the command that sets
-/// another CRS.
+/// Fails with kInput if the CRS is in degrees and the centre is far outside the range of degrees. `way`: the command
+/// that sets another CRS.
 Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre, const std::string& path,
                             const std::string& way);
 
@@ -58,7 +58,7 @@ Result<void> verify_degrees(const Crs& crs, const std::array<double, 2>& centre,
 /// and a new one is created when all are in use.
 class Passage {
  public:
-  /// `is_strict`: use only operations that PROJ knows to be correct and that have their grids on this machine.
+  /// `is_strict`: use only operations that PROJ knows to be correct and whose grids are on this machine.
   Passage(const Crs& from, const Crs& to, bool is_strict = false);
 
   /// False if PROJ knows no conversion.

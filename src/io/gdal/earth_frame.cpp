@@ -48,7 +48,6 @@ struct Points {
   Vector at(std::size_t k) const { return {x[k], y[k], z[k]}; }
 };
 
-/// Three orthogonal directions, and an origin.
 struct Axes {
   Vector origin{}, east{1, 0, 0}, north{0, 1, 0}, up{0, 0, 1};
 };
@@ -93,7 +92,7 @@ class EarthTransform final : public SpaceTransform {
     for (double& height : up_ != 1 ? z : std::span<double>()) height *= up_;
     return all;
   }
-  /// Whole metres, so that the sum with a float32 offset is a double.
+  /// Whole metres, so that the sum with a float32 offset is exactly a double.
   Vector origin() const override {
     if (is_tangent_) return {0, 0, 0};
     return {std::nearbyint(axes_.origin[0]), std::nearbyint(axes_.origin[1]), std::nearbyint(axes_.origin[2])};
@@ -119,7 +118,7 @@ Crs find_geocentric(const std::string& definition) {
   return OSRIsGeocentric(crs.get()) != 0 ? std::move(crs) : nullptr;
 }
 
-/// The geocentric CRS of the raster's own ellipsoid: for other planets, or a datum of unknown position.
+/// The geocentric CRS of the raster's own ellipsoid, for other planets and for a datum of unknown position.
 Crs own_geocentric(const Georeference& geo) {
   OGRErr error = OGRERR_NONE;
   const double a = OSRGetSemiMajor(geo.crs.get(), &error), rf = OSRGetInvFlattening(geo.crs.get(), &error);
@@ -139,7 +138,7 @@ std::shared_ptr<EarthTransform> find_way(const Georeference& geo, const Crs& fro
   return way;
 }
 
-/// East, north and up at the raster's centre; at a pole those of longitude 0.
+/// East, north and up at the raster's centre; at a pole, those of longitude 0.
 Axes axes_of(const EarthTransform& way, const Georeference& geo) {
   const auto [x, y] = geo.centre();
   Points ends;
@@ -157,8 +156,8 @@ Axes axes_of(const EarthTransform& way, const Georeference& geo) {
 }
 
 /// Checks a net of points over the raster, including its edges. Fails with kUsage unless the net is within 60 degrees
-/// of the raster's centre, keeps one orientation, and is recovered by the inverse. If x is a longitude, the net must
-/// also span less than half a turn.
+/// of the raster's centre, keeps one orientation, and is recovered by the inverse conversion. If x is a longitude, the
+/// net must also span less than half a turn.
 Result<void> verify(const EarthTransform& way, const Axes& axes, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   constexpr double kLeastCosine = 0.5, kBack = 1.0 / 1024;

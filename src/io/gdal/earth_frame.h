@@ -22,7 +22,7 @@ struct SpaceCrs {
 SpaceCrs space_crs_of(const Crs& declared);
 
 /// The frame in space named by `wanted`. REQUIRES: is_in_space().
-/// Warnings are added to `info`. Fails with kUsage if the raster's CRS cannot be converted, or the raster extends
+/// Warnings are added to `info`. Fails with kUsage if the raster's CRS cannot be converted, or if the raster extends
 /// around a pole or the earth.
 Result<Frame> earth_frame(const Georeference& georeference, const std::string& wanted, RasterInfo& info);
 

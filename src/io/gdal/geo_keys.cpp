@@ -1,4 +1,4 @@
-// Reads GeoTIFF keys outside a GeoTIFF: GDAL reads them from a GeoTIFF of one sample, made in memory.
+// Reads GeoTIFF keys that are not in a GeoTIFF. They are put into a GeoTIFF of one sample in memory, which GDAL reads.
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <gdal.h>

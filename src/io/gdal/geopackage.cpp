@@ -1,4 +1,4 @@
-// GeoPackage, written by GDAL in memory: a layer with one polygon with heights per triangle.
+// GeoPackage, written by GDAL in memory: a layer with one polygon per triangle, with heights.
 //
 // The standard's extensions have geometries for triangles and TINs. But map programs read polygons, and QGIS also draws
 // polygons in three dimensions.

@@ -44,7 +44,7 @@ Frame source_frame(const Georeference& geo) {
   return frame;
 }
 
-/// Warns of coordinates that resemble degrees without a CRS, or with one in units of length.
+/// Warns if coordinates resemble degrees, but there is no CRS or its unit is a length.
 void doubt_lengths(const Georeference& geo, RasterInfo& info) {
   if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
   if (geo.crs && OSRIsProjected(geo.crs.get()) == 0) return;

@@ -12,16 +12,15 @@
 
 namespace scarp::gdal {
 
-/// The georeference that a raster declares.
 struct Georeference {
   int cols = 0, rows = 0;
   bool located = false;                             ///< true if the raster has a geotransform
   std::array<double, 6> pixels{0, 1, 0, 0, 0, 1};   ///< GDAL's geotransform, of pixel corners
-  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same as in a Frame: integer (col, row) are pixel centres
+  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< map as in a Frame: integer (col, row) are pixel centres
   Crs crs;                                          ///< null if unknown
   SpaceCrs in_space;                                ///< the CRS with heights; null if unknown
   bool geographic = false;
-  double unit_in_metres = 1;  ///< unit of x and y; in radians if geographic
+  double unit_in_metres = 1;  ///< unit of x and y, in metres; if geographic, in radians
   std::string unit_name;      ///< "metre", "degree", …; empty without a CRS
 
   /// Position of the sample (cols / 2, rows / 2).

@@ -56,7 +56,7 @@ class GdalGeoTiff final : public GeoTiff {
   }
   Result<void> close() override {
     gdal::Session session;
-    session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml next to it
+    session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml next to the file
     dataset_.reset();
     if (session.failed()) return refuse_geotiff(session.reason());
     return {};

@@ -37,7 +37,7 @@ class WarpedImage final : public GlobeImage {
  public:
   WarpedImage(std::string path, Crs degrees) : path_(std::move(path)), degrees_(std::move(degrees)) {}
 
-  /// Sets its position. Fails with kInput.
+  /// Sets the image's position. Fails with kInput.
   Result<void> find_place(const Georeference& geo) {
     auto to_degrees = build_transform(geo.crs, degrees_);
     if (!to_degrees)
@@ -80,7 +80,7 @@ class WarpedImage final : public GlobeImage {
   }
 
  private:
-  /// For one thread.
+  /// The open image, for one thread.
   Result<Dataset> take(Session& session) const {
     {
       const std::lock_guard lock(mutex_);

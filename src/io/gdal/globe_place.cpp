@@ -33,7 +33,7 @@ Crs find_space_crs(const std::string& definition) {
   return crs;
 }
 
-/// The zero of heights by PROJ, via the raster's own x and y if the zero belongs to their CRS.
+/// Finds the zero of heights by PROJ, from the raster's own x and y if the zero belongs to their CRS.
 class ProjZero final : public HeightZero {
  public:
   /// `from_degrees`: null if x and y are degrees.
@@ -147,7 +147,6 @@ Result<void> find_zero_by_proj(const RasterInfo& info, const Datum& datum, const
   return {};
 }
 
-/// Finds the zero of the heights.
 Result<void> find_zero(const RasterInfo& info, const Datum& datum, const std::string& path, RasterOnGlobe& globe) {
   switch (datum.vertical) {
     case Vertical::kNone:

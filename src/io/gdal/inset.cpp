@@ -68,8 +68,8 @@ struct Corner {
   Place at, first, last;
 };
 
-/// Merges the middle two of the last four vertices at the intersection of their neighbours' edges, if it is near, on
-/// the side to which the ring was moved.
+/// Merges the middle two of the last four vertices at the point where the edges before and after them intersect, if
+/// this point is near and on the side to which the ring was moved.
 bool sharpen(std::vector<Corner>& ring, double distance) {
   constexpr double kReach = 1.7320508;  // relative to the distance: a corner of 60 degrees, twice as far away as its
                                         // arc
@@ -87,7 +87,7 @@ bool sharpen(std::vector<Corner>& ring, double distance) {
   return true;
 }
 
-/// Replaces arcs by corners. `distance`: of the move to the left.
+/// Replaces arcs by corners. `distance`: how far the ring was moved to the left.
 OGRLinearRing sharpened(const OGRLinearRing& ring, double distance) {
   const int count = ring.getNumPoints() - 1;
   const auto place = [&](int k) { return Place{ring.getX(k % count), ring.getY(k % count)}; };

@@ -1,4 +1,4 @@
-// GDALBuildVRT() supports one nodata value and no unit, rejects rasters whose first row is the southern one, and shows
+// GDALBuildVRT() supports one nodata value and no unit, rejects rasters whose first row is the southern one, and reads
 // signed bytes as unsigned. So the virtual raster is written here. Its bands have the tiles' type, nodata value, scale
 // and offset where these agree. Otherwise they are floats with nodata NaN, which no tile uses as a height. A mask marks
 // invalid cells that a nodata value cannot mark.
@@ -17,7 +17,6 @@
 namespace scarp::gdal {
 namespace {
 
-/// A band of the virtual raster.
 struct JoinedBand {
   GDALDataType type = GDT_Unknown;
   std::optional<double> nodata;
@@ -66,7 +65,7 @@ JoinedBand describe_joined(std::span<const Tile> tiles, std::size_t k, std::opti
   const bool is_one = is_one_nodata && !joined.is_decoded && !with_nan;
   if (is_one && (!joined.nodata || holds(joined.type, *joined.nodata))) return joined;
   joined.type = floats_for(joined.type);
-  if (is_one) return joined;  // NaN, in no tile
+  if (is_one) return joined;  // NaN, which is in no tile
   joined.nodata = huge && !joined.is_decoded && !with_nan ? *huge : std::numeric_limits<double>::quiet_NaN();
   return joined;
 }

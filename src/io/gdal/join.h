@@ -17,7 +17,7 @@
 
 namespace scarp::gdal {
 
-/// The metadata of a raster about one of its bands.
+/// A raster's metadata about one of its bands.
 struct BandFacts {
   GDALDataType type = GDT_Unknown;
   bool is_signed_byte = false;  ///< GDT_Byte that holds −128 … 127
@@ -29,7 +29,7 @@ struct BandFacts {
 
 /// A raster of a mosaic.
 struct Tile {
-  std::string path, name;  ///< path as given, and its name in GDAL
+  std::string path, name;  ///< path as given, and the name that GDAL uses
   Crs crs;
   SpaceCrs space;
   std::array<double, 6> gt{0, 1, 0, 0, 0, 1};

@@ -127,7 +127,7 @@ Result<void> make_polygons(Session& session, Boundaries boundaries, const std::s
   return {};
 }
 
-/// The unit of a file without CRS must be that of the input, or unknown.
+/// Fails unless the unit of a file without CRS is that of the input, or unknown.
 Result<void> check_unit(const HeightUnit& unit, const std::string& path, const ReadLinesOptions& options) {
   const auto crs = describe_crs(options.crs);
   const double metres = !crs ? options.unit_in_metres : crs->is_geographic ? 0 : crs->unit_in_metres;

@@ -16,7 +16,7 @@ bool is_there(const std::string& vsi) {
 }
 
 /// Adds the file on disk in a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif. In
-/// any file system's syntax, the file's name ends at the end of a part of the name.
+/// every such syntax, the file's path ends where a component of the name ends.
 void add_container(const std::string& name, std::set<std::string>& seen) {
   if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
   constexpr const char* kBeginnings = "/{,=";

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kMostOffGrid = 1e-3;  // share of a cell
 
-/// A command that creates a new file of the raster. Cells outside it become nodata rather than 0.
+/// A command that creates a new file from the raster. Cells outside it become nodata rather than 0.
 std::string gdalwarp(const std::string& options, const Tile& tile) {
   const BandFacts& band = tile.bands.front();
   const bool tells = band.nodata || tile.has_mask(false) || tile.has_alpha() || tile.bands.size() > 1;
@@ -97,7 +97,7 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
 /// The reference of heights, from the CRS.
 std::string heights_of(const Tile& tile) { return tile.space.is_ellipsoidal ? "the ellipsoid" : tile.space.vertical; }
 
-/// Advice to convert the raster, with its heights, to the CRS of the first.
+/// Advice to convert the raster, with its heights, to the CRS of the first raster.
 std::string bring_there(const Tile& first, const Tile& tile) {
   const std::string from = heights_of(tile), to = heights_of(first);
   const std::string with_heights = from.empty() || to.empty() ? "" : name_with_heights(first.space.crs);
@@ -138,7 +138,7 @@ double turn_of(const Crs& crs) {
 /// Distance from an integer.
 double off_whole(double number) { return std::abs(number - std::round(number)); }
 
-/// "" or the second half of a sentence: the difference, and its remedy.
+/// The difference and its remedy, as the second half of a sentence; empty if none.
 std::string find_difference(const Tile& first, const Tile& tile) {
   if (!first.crs != !tile.crs || (tile.crs && !same_crs(first.crs, tile.crs))) {
     const auto name = [](const Tile& of) { return of.crs ? short_name(of.crs) : std::string("no CRS"); };
@@ -198,7 +198,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
                      to_grid);
 }
 
-/// True if two rasters store heights in the same way. Others are interpolated separately.
+/// True if two rasters store heights in the same way. Rasters that differ are interpolated separately.
 bool hold_alike(const Tile& first, const Tile& tile) {
   return std::equal(first.bands.begin(), first.bands.end(), tile.bands.begin(), tile.bands.end(),
                     [](const BandFacts& a, const BandFacts& b) {
@@ -208,14 +208,14 @@ bool hold_alike(const Tile& first, const Tile& tile) {
                     });
 }
 
-/// The widest gap on a circle between arcs, each given by its start on [0, turn) and its length.
+/// The widest gap between arcs on a circle. An arc is given by its start in [0, turn) and its length.
 struct Gap {
   double end = 0, width = 0;
 };
 Gap find_gap(std::vector<std::pair<double, double>> arcs, double turn) {
   std::sort(arcs.begin(), arcs.end());
   Gap gap;
-  double before = -HUGE_VAL;  // east end of the previous arcs, a turn back
+  double before = -HUGE_VAL;  // largest end of the previous arcs; at first, of all arcs minus a turn
   for (const auto& [from, length] : arcs) before = std::max(before, from + length - turn);
   for (const auto& [from, length] : arcs) {
     if (from - before > gap.width) gap = {from, from - before};
@@ -284,7 +284,7 @@ Tile part_of(const Tile& tile, int from, int to) {
   return part;
 }
 
-/// Splits rasters that are empty between their two sides.
+/// Splits rasters that have a wide gap between their two sides.
 void split_at_gaps(std::vector<Tile>& tiles) {
   std::vector<Tile> parts;
   for (Tile& tile : tiles) {

@@ -19,8 +19,8 @@ bool mark_derived(GDALDatasetH raster);
 Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths,
                                                 std::vector<std::string>& left_out);
 
-/// The first and end columns of the gap in a virtual raster of files on both sides of the 180th meridian. It spans most
-/// of the earth and is declared empty in the gap.
+/// Finds the gap in a virtual raster of files on both sides of the 180th meridian. Such a raster spans most of the
+/// earth and declares the gap empty. Returns the gap's first and end columns.
 std::optional<std::pair<int, int>> find_wide_gap(GDALDatasetH raster);
 
 /// A virtual raster of all paths; see RasterView::more. `nodata`: as in open_view(). Sets `words` to a description of

@@ -176,7 +176,7 @@ std::string read_head(const std::string& vsi, std::size_t bytes) {
 
 tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason) {
   VSIStatBufL status{};
-  VSICurlPartialClearCache(vsi.c_str());  // it caches the failure, but not its reason
+  VSICurlPartialClearCache(vsi.c_str());  // GDAL caches the failure, but not its reason
   VSIErrorReset();
   const bool is_there = VSIStatExL(vsi.c_str(), &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_SET_ERROR_FLAG) == 0;
   const std::string why = is_there ? "" : VSIGetLastErrorMsg();

@@ -27,16 +27,16 @@ bool is_remote(const std::string& path);
 std::string vsi_path(const std::string& path);
 
 /// Opens `path` for reading: a file, a URL, a /vsi… name, a zip with one raster, a driver's own syntax
-/// ("NETCDF:file.nc:z"). Fails with kInput in one sentence: no such file, a directory, vector data, several rasters,
-/// not a raster.
+/// ("NETCDF:file.nc:z"). Fails with kInput and one sentence for a missing file, a directory, vector data, several
+/// rasters, and other files.
 Result<Dataset> open_raster(Session& session, const std::string& path);
 
 /// Opens the virtual raster described by `xml`. `path` is for error messages.
 Result<Dataset> open_xml(Session& session, const std::string& xml, const std::string& path);
 
-/// Copies metadata to a virtual raster `to` from `from`, which has at least as many bands: the CRS with its vertical
-/// datum, the area-or-point flag, and each band's unit, scale, offset, description, colour meaning and palette. Nodata
-/// and position are not copied.
+/// Copies metadata from `from` to a virtual raster `to`: the CRS with its vertical datum, the area-or-point flag, and
+/// each band's unit, scale, offset, description, colour meaning and palette. Nodata and position are not copied.
+/// REQUIRES: `from` has at least as many bands.
 void repeat_said(GDALDatasetH from, GDALDatasetH to);
 /// The error if a file on another machine cannot be opened: the server's answer, or else `reason`.
 tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& vsi, const std::string& reason);
@@ -44,8 +44,8 @@ tl::unexpected<Error> refuse_remote(const std::string& path, const std::string& 
 /// Up to `bytes` bytes from the start of a file.
 std::string read_head(const std::string& vsi, std::size_t bytes = 4096);
 
-/// Reopens a virtual raster from its XML, so that neither its file nor its source rasters must stay open. `path` is for
-/// error messages.
+/// Reopens a virtual raster from its XML, so that neither its file nor its source rasters need to stay open. `path` is
+/// for error messages.
 Result<Dataset> open_virtual(Session& session, GDALDatasetH made, const std::string& path);
 
 /// The driver that recognises a raster or vector file (GDAL_OF_RASTER, GDAL_OF_VECTOR) by its first bytes. Null without

@@ -57,7 +57,7 @@ Passage::Handle Passage::take() const {
     idle_.pop_back();
     return handle;
   }
-  // By default GDAL chooses among PROJ's operations by the mean of a call's points; PROJ chooses point by point.
+  // By default, GDAL selects one of PROJ's operations by the mean of a call's points. PROJ selects one for each point.
   Session session;
   session.set_option("OGR_CT_OP_SELECTION", "PROJ");
   OGRCoordinateTransformationOptionsH options = OCTNewCoordinateTransformationOptions();

@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegrees = 57.29577951308232;
 /// Distance from the centre, in cells, for measuring the projection's rotation and scale there.
 constexpr double kReach = 16;
-/// Raster positions examined each way.
+/// Raster positions examined in each direction.
 constexpr int kPlaces = 17;
 
 using Point = std::array<double, 3>;
@@ -25,7 +25,7 @@ Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[
 Point operator*(double factor, const Point& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Positions of the raster, earth-centred.
+/// Earth-centred positions of the raster.
 class Places {
  public:
   Places(const RasterOnGlobe& globe, const LocalRaster& raster) : globe_(globe), raster_(raster) {}
@@ -33,7 +33,7 @@ class Places {
   struct At {
     Point place{}, up{}, east{}, north{};
   };
-  /// The position for cells east and north of the centre sample, and a height above the zero. Not finite if there is
+  /// The position `east` and `north` cells from the centre sample, at `height` above the zero. Not finite if there is
   /// none.
   At at(double east, double north, double height) const {
     const std::array<double, 6>& a = globe_.place.affine;

@@ -1,4 +1,4 @@
-// Reads an image: all its bands as channels.
+// Reads all bands of an image as channels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,7 +83,6 @@ Result<ChannelBands> choose_bands(GDALDatasetH dataset, const std::string& path,
   return chosen;
 }
 
-/// Replaces palette indices by colours.
 Result<void> apply_palette(const Palette& palette, OwnedHeightField& field, std::vector<std::vector<float>>& bands) {
   const std::size_t first = bands.size();
   for (int k = 0; k < 3; ++k) bands.emplace_back(field.samples.size(), kNoChannel);

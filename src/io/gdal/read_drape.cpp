@@ -40,7 +40,6 @@ std::array<int, 2> choose_size(const std::array<double, 2>& pixels, int size) {
   return {side(pixels[0]), side(pixels[1])};
 }
 
-/// Makes transparent pixels white.
 void lay_on_white(WarpedPixels warped, Drape& drape) {
   const std::size_t pixels = warped.alpha.size();
   std::size_t covered = 0;

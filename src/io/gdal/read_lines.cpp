@@ -24,7 +24,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// An open file and the requested layer.
 struct OpenedLayer {
   Dataset dataset;
   std::string path, layer;  ///< layer: empty if none was named
@@ -35,7 +34,7 @@ bool exists(const std::string& path) {
   return VSIStatL(vsi_path(path).c_str(), &status) == 0;
 }
 
-/// The name of a file, and of the layer in it if that is named.
+/// The name of a file, and of the layer in it if the layer is named.
 struct NamedLayer {
   std::string file, layer;
 };
@@ -77,7 +76,6 @@ Result<VectorLayer> find_layer(const OpenedLayer& opened) {
   return fail(ErrorKind::kInput, fmt::format("{} has no layer '{}' ({})", opened.path, opened.layer, found));
 }
 
-/// Collects the lines and rings of features.
 class LineCollector {
  public:
   LineCollector(std::optional<int> height_field, bool ignore_z, LineSet& set)

@@ -11,8 +11,8 @@
 //     cross colour steps no more often than their size implies.
 //   - Interpolation passes through all values of a colour that wraps around. Between two close samples on opposite
 //     sides of such a height, a sample then differs from both in 40 % of cases or more, sometimes below and sometimes
-//     above. Real land is independent of the wraps: it is as rough at heights a quarter, a half and three quarters of a
-//     step above.
+//     above. Real land does not depend on the wraps: it is equally rough at heights a quarter, a half and three
+//     quarters of a step above them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,8 +64,7 @@ std::int64_t every_row(int cols, int rows) { return 1 + std::int64_t{cols} * row
 
 constexpr std::array<std::size_t, 2> kLags{1, 4};  // the second one detects enlargement by more than three
 
-/// For three samples with close outer ones, counts the middle one at each quarter of a colour step between the outer
-/// ones.
+/// If the outer two of three samples are close, counts the middle one at each quarter of a colour step between them.
 void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t lag, std::size_t first_colour,
                  Findings::Colours& colours) {
   const auto [low, high] = std::minmax(a, c);
@@ -88,7 +87,7 @@ void count_lines(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t 
   }
 }
 
-/// In terrarium, steps of the middle colour are 1 m, and heights in whole metres change only by these.
+/// In terrarium, a step of the middle colour is 1 m, and heights in whole metres change only by such steps.
 std::size_t first_colour(Decode decode) { return decode == Decode::kTerrarium ? 1 : 0; }
 
 /// True if more samples differ at a colour's wraps than on real land.
@@ -163,7 +162,7 @@ class PackedReader : public WindowReader {
   }
 
  private:
-  /// `end`: of the row's pixels.
+  /// `end`: end of the row's pixels.
   void look_at_row(const std::uint8_t* end, int cols) {
     row_.clear();
     for (const std::uint8_t* rgb = end - std::ptrdiff_t{cols} * bands_; rgb != end; rgb += bands_)

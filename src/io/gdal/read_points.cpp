@@ -45,7 +45,7 @@ std::string make_lines(const std::string& path) {
                      new_file(".gpkg"), file_word(path));
 }
 
-/// The layers to read: those named by `wanted`, else the first layer of points, else of lines.
+/// The layers to read: those named by `wanted`, else the first layer of points, else the first layer of lines.
 Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
   const std::vector<VectorLayer> layers = list_layers(dataset);
   if (layers.empty()) return fail(ErrorKind::kInput, path + ": holds no points or lines");
@@ -175,7 +175,6 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
   return named;
 }
 
-/// Collects the points of features.
 class PointCollector {
  public:
   PointCollector(const std::string& path, std::optional<int> height_field, std::optional<double> nodata,
@@ -374,7 +373,6 @@ Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& p
   return wanted.empty() || wanted == "local" ? make_local(crs, points) : project(crs, wanted, points);
 }
 
-/// Adds the points and lines of a layer.
 Result<void> read_layer(Session& session, const VectorLayer& from, bool is_only, const ReadPointsOptions& options,
                         PointSet& points) {
   const std::string& path = points.path;

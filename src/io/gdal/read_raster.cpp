@@ -27,7 +27,7 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-/// An open and interpreted raster, its samples not yet read.
+/// An open and interpreted raster whose samples are not yet read.
 struct UnreadRaster {
   Dataset dataset;
   Georeference georeference;
@@ -35,7 +35,7 @@ struct UnreadRaster {
   RasterInfo info;
 };
 
-/// Includes the range, if known.
+/// The warning includes the range, if known.
 void warn_of_depths(const UnreadRaster& unread, const ReadOptions& options, RasterInfo& info) {
   const SpaceCrs& crs = unread.georeference.in_space;
   const std::string reason =
@@ -146,7 +146,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   // Applied to the band's scale, so that all ways of reading include it.
   unread.band.scale *= options.z_scale;
   unread.band.offset = options.z_scale * unread.band.offset + options.z_offset;
-  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else x and y are the caller's
+  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else the caller handles x and y
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
@@ -236,8 +236,8 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
 
 /// Makes a source of the samples' file.
 Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
-  // Bands of rows are read in sequence. A file in blocks is decoded once if the cache holds a row of blocks and the
-  // start of the next.
+  // Bands of rows are read in sequence. A file in blocks is decoded only once if the cache holds a row of blocks and
+  // the start of the next row.
   widen_block_cache(options.run.memory.limit);
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;

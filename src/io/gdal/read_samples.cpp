@@ -4,9 +4,9 @@
 // only one copy of the samples. A damaged file must never appear as flat ground.
 //
 // Idea: GDAL reads types with only float32 values (8 and 16 bits, float32) directly into the samples. Other types are
-// read in windows of doubles (64-bit integers: of their own type). In a window, nodata is compared, scale and offset
-// are applied, and the distance to the nearest float32 is recorded. Increased by this distance, a bound on the samples
-// also holds for the file.
+// read in windows of doubles (64-bit integers: windows of their own type). In a window, nodata is compared, scale and
+// offset are applied, and the distance to the nearest float32 is recorded. A bound on the samples, increased by this
+// distance, also holds for the file.
 #include "io/gdal/read_samples.h"
 
 #include <cpl_string.h>
@@ -82,9 +82,9 @@ double distance(Integer raw, float rounded) {
   return static_cast<double>(difference < 0 ? -difference : difference);
 }
 
-/// Bound of the error of GDAL's mean: GDAL adds float32 values and stores a float32, for any requested type. Sums of
-/// integer cells are exact. If mean · cells is an integer, so is mean · cells · counted. This product differs from sum
-/// · cells by less than 1, so both are equal, and the mean is exact.
+/// Bound on the error of GDAL's mean of `counted` valid cells. GDAL adds float32 values and stores a float32, for any
+/// requested type. Sums of integer cells are exact. If mean · cells is an integer, so is mean · cells · counted. This
+/// product differs from sum · cells by less than 1, so both are equal, and the mean is exact.
 double rounding_of_mean(double mean, const Means& means) {
   if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
   const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;

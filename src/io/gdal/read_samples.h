@@ -34,7 +34,7 @@ struct BandSense {
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
   Means means;
-  std::string depths;  ///< the reason to assume depths, measured downwards; else empty
+  std::string depths;  ///< the reason to assume depths, measured downwards; empty if none
 };
 
 /// Fails with kInput if the band does not exist or is complex.
@@ -55,27 +55,27 @@ struct Findings {
   std::optional<Beyond> beyond;  ///< the first finite value beyond float32
   /// Statistics of colours that are read as heights.
   struct Colours {
-    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< black excluded; on_earth_otherwise: by the
+    std::uint64_t valid = 0, on_earth = 0, on_earth_otherwise = 0;  ///< excluding black; on_earth_otherwise: in the
                                                                     ///< other encoding
-    /// Numbers of samples that differ from both neighbours: where the colour with the value 2^8 or 2^16 changes, and
-    /// elsewhere.
+    /// Numbers of samples that differ from both neighbours. `torn`: where the colour with the value 2^8 or 2^16
+    /// changes; `whole`: elsewhere.
     std::array<std::uint64_t, 2> torn{}, whole{};
     std::array<std::uint32_t, 2> most{};  ///< largest difference of torn samples
-    /// Numbers of pairs of samples on opposite sides of a height where a colour wraps around, and of such pairs with an
-    /// outlier between them. By lag, by colour, and by the quarters of the colour's value that shift this height.
+    /// `crossed`: number of pairs of samples on opposite sides of a height at which a colour wraps around. `off`:
+    /// number of such pairs with an outlier between them. Indices: lag, colour, shift of this height in quarters of the
+    /// colour's value.
     struct Line {
       std::uint64_t crossed = 0, off = 0;
     };
     std::array<std::array<std::array<Line, 4>, 2>, 2> lines{};
     std::array<std::array<std::uint32_t, 2>, 2> farthest{};  ///< largest difference at the unshifted height
-    /// Numbers of samples at the wrapping height that are below both neighbours, and above both; by the last three bits
-    /// of the number of wraps.
+    /// Numbers of outliers at the unshifted height. Indices: lag, colour, last three bits of the number of wraps, side
+    /// (0: below both neighbours, 1: above both).
     std::array<std::array<std::array<std::array<std::uint64_t, 2>, 8>, 2>, 2> sides{};
 
     void add(const Colours& further);
   } colours;
 
-  /// Adds the findings of later windows.
   void add(const Findings& further) {
     infinities += further.infinities;
     colours.add(further.colours);
@@ -111,14 +111,14 @@ struct ReadHandle {
 /// Opens the raster again.
 using OpenAgain = std::function<std::optional<ReadHandle>()>;
 
-/// Reads the raster of `band` into field.samples (already allocated), in windows of a few MB aligned with the file's
-/// blocks, on several threads if `open_again` is not empty. Sets field.sample_rounding. Fails with kInput as soon as
-/// GDAL reports a failure, and with kCancelled if the callback requests it.
+/// Reads the raster of `band` into field.samples (already allocated). Windows have a few MB and are aligned with the
+/// file's blocks. Uses several threads if `open_again` is not empty. Sets field.sample_rounding. Fails with kInput as
+/// soon as GDAL reports a failure, and with kCancelled if the callback requests it.
 Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
                               const ReadOptions& options, OwnedHeightField& field);
 
-/// The same for several bands of one raster, each into its own field. Each window is read for all bands before the next
-/// window, so that interleaved files are decoded once.
+/// Like read_windows(), but reads several bands of one raster, each into its own field. Each window is read for all
+/// bands before the next window, so that interleaved files are decoded once.
 Result<void> read_bands(Session& session, std::span<const BandSense> bands, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities);
 
@@ -127,7 +127,7 @@ bool is_float32(const BandSense& sense);
 /// True if the band's samples can be stored as 16-bit codes.
 bool has_codes(const BandSense& sense);
 /// Reads a band with has_codes() as codes into field.source. Sets field.sample_rounding and the range of field.info;
-/// counts infinities. Fails as read_windows(), and with kInput if memory cannot be allocated.
+/// counts infinities. Fails as read_windows() does, and with kInput if memory cannot be allocated.
 Result<void> read_codes(Session& session, const BandSense& sense, const ReadOptions& options, OwnedHeightField& field,
                         std::uint64_t& infinities);
 

@@ -21,7 +21,8 @@ void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* messag
   if (severity == CE_Warning) session->note(false, false, message);
 }
 
-/// libhdf4 ends the program on damaged files. The others read XML with Xerces, which expands entities without limit.
+/// libhdf4 ends the program on damaged files. The other drivers read XML with Xerces, which expands entities without
+/// limit.
 constexpr std::array kUnsafeDrivers{"HDF4", "HDF4Image", "NAS", "GMLAS", "Interlis 2"};
 
 /// If the host has registered drivers itself, all of them are kept.
@@ -37,7 +38,7 @@ void register_drivers() {
   }
 }
 
-/// HDF5 prints its own errors. It may not be loaded with GDAL, so its functions are found by name.
+/// HDF5 prints its own errors. GDAL may run without the library, so its functions are found by name.
 struct Hdf5 {
   using Get = int (*)(std::int64_t, Hdf5Errors::Print*, void**);
   using Set = int (*)(std::int64_t, Hdf5Errors::Print, void*);
@@ -88,7 +89,7 @@ void widen_block_cache(std::uint64_t bytes) {
 void Session::begin() {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();
-  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // it would be written next to the input
+  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");   // else GDAL writes a file next to the input
   set_option("GML_PARSER", "EXPAT");                    // limits the expansion of entities
   set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // otherwise missing parts of a truncated JPEG are grey
 }

@@ -36,7 +36,7 @@ class Hdf5Errors {
 class Session {
  public:
   explicit Session(bool remote = false);
-  /// For another thread, or nested, for parallel work on a local file; does not silence HDF5.
+  /// For parallel work on a local file, in another thread or nested. Does not silence HDF5.
   explicit Session(const Session& first);
   ~Session();
   Session& operator=(const Session&) = delete;
@@ -44,7 +44,6 @@ class Session {
   bool failed() const { return !failures_.empty(); }
   /// GDAL's error messages since clear(), as the end of a sentence; "no reason given" without messages.
   std::string reason() const;
-  /// True if memory ran out.
   bool out_of_memory() const { return out_of_memory_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Clears failures, keeps warnings.

@@ -7,10 +7,10 @@
 
 namespace scarp::gdal {
 
-/// Metadata key of a raster: the number of nodes in its text.
+/// Metadata key for the number of nodes in a raster's text.
 inline constexpr const char* kTextGridKey = "SCARP_NODES";
 
-/// Metadata key: warnings about the text's columns, one sentence per line.
+/// Metadata key for warnings about the text's columns, one sentence per line.
 inline constexpr const char* kTextWarningsKey = "SCARP_WARNINGS";
 
 /// The name of a GeoTIFF of the text's nodes, created on the first call and kept for the process. Empty for a file that

@@ -18,7 +18,7 @@ namespace scarp::gdal {
 
 namespace {
 
-/// DXF is UTF-8 from AutoCAD 2007 on, whatever code page it declares. GDAL 3.6 believes the code page.
+/// DXF is UTF-8 from AutoCAD 2007 on, whatever code page it declares. GDAL 3.6 uses the code page.
 bool is_dxf_of_utf8(std::string_view head) {
   const std::size_t key = head.find("$ACADVER"), version = key == head.npos ? key : head.find("AC", key + 8);
   return version != head.npos && version + 6 <= head.size() && head.substr(version, 6) >= "AC1021";

@@ -25,14 +25,14 @@ struct DestroyGeometry {
 };
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
-/// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput in one sentence, in which `what` is the
+/// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput and one sentence, in which `what` is the
 /// wanted data ("points") and `expected` describes all supported files ("vector data that GDAL can read").
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected);
 
 /// The index of the attribute `name` of a layer. If absent, fails with kInput and a list of existing attributes.
 Result<int> find_field(OGRLayerH layer, const std::string& path, const std::string& name);
 
-/// A layer as its user sees it. GDAL has one layer for all layers of a drawing (DXF); open() filters it.
+/// A layer as its user sees it. GDAL has one layer for all layers of a drawing (DXF), which open() filters.
 struct VectorLayer {
   OGRLayerH of = nullptr;
   std::string name, filter;  ///< filter: empty unless in a drawing
@@ -49,7 +49,7 @@ Crs declared_layer_crs(OGRLayerH layer);
 /// The CRS of a layer; null if the file declares it undefined (GeoPackage's srs_id 0 and -1).
 Crs layer_crs(OGRLayerH layer);
 
-/// Calls add(feature) for the features of a layer until add() fails. Fails as add(), with kCancelled if `progress`
+/// Calls add(feature) for the features of a layer until add() fails. Fails as add() does, with kCancelled if `progress`
 /// requests it, and with kInput if the layer cannot be read completely.
 Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,
                           const std::function<Result<void>(OGRFeatureH)>& add);

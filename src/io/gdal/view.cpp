@@ -72,14 +72,14 @@ Result<void> coarsen(double resolution, const std::array<double, 6>& gt, const s
                   path, part.cols, part.rows, std::abs(gt[1]), std::abs(gt[5]), resolution));
 }
 
-/// The type of means: fractional for bytes that are heights and for all other integers.
+/// The type of means: fractional for all integers, except for bytes if `keeps_type`.
 const char* mean_type(GDALDataType type, bool keeps_type) {
   if (keeps_type && type == GDT_Byte) return "Byte";
   const bool is_wide = type == GDT_Float64 || type == GDT_Int32 || type == GDT_UInt32;
   return is_wide ? "Float64" : "Float32";
 }
 
-/// Completes the virtual raster `made` of `whole` with the metadata of `whole`.
+/// Copies the metadata of `whole` to its virtual raster `made`.
 Result<Dataset> finish_view(Session& session, GDALDatasetH whole, GDALDatasetH made, const std::string& path) {
   if (made == nullptr)
     return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));

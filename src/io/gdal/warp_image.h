@@ -17,11 +17,11 @@ namespace scarp::gdal {
 using Transform6 = std::array<double, 6>;
 
 /// Side of the square on which image and raster lie if neither has a position. GDAL would interpret pixels of size 1 as
-/// no position.
+/// a missing position.
 constexpr double kNowhere = 0.7;
 
-/// The image with bands red, green, blue, and alpha if present; colours replace palette indices. `located`: false
-/// places it on that square. Fails with kInput unless it has 8 bits.
+/// The image with bands red, green, blue, and alpha if present; colours replace palette indices. Unless `located`, the
+/// image is placed on that square. Fails with kInput unless the bands have 8 bits.
 Result<Dataset> arrange_bands(Session& session, GDALDatasetH image, const std::string& path, bool located);
 
 /// An in-memory picture with a georeference: red, green, blue, alpha. `place`: geotransform of a single pixel that

@@ -20,14 +20,14 @@ struct Window {
 
 constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
-/// The order of reading a raster, in which each block of the file is read once. A window consists of whole blocks, as
-/// many as fit kWindowSamples, and of full rows if blocks are full rows. Larger blocks are read in successive slices:
-/// the windows of one stack.
+/// The order in which a raster is read, so that each block of the file is read once. A window consists of as many whole
+/// blocks as fit kWindowSamples. It has full rows if the blocks do. A larger block is read in successive slices, which
+/// are the windows of one stack.
 class WindowOrder {
  public:
   WindowOrder(GDALRasterBandH band, int cols, int rows);
 
-  /// Number of stacks; rows of stacks start at the top.
+  /// Number of stacks. Their rows are ordered from the top.
   std::size_t count() const { return across_ * ((static_cast<std::size_t>(rows_) - 1) / stack_rows() + 1); }
   Window stack(std::size_t i) const;
   /// Rows of a window; may exceed the rows of a stack, which is then a single window.
@@ -53,8 +53,8 @@ std::string name_damaged_rows(Session& session, const Window& window, Read read)
   return fmt::format("rows {} to {}", window.row, window.row + window.rows - 1);
 }
 
-/// Calls read(window) -> bool once. Fails with kInput, naming `path`, if it returns false or GDAL has reported a
-/// failure: a driver may report a failure and still return zeros.
+/// Calls read(window) -> bool once. Fails with kInput if read() returns false or GDAL reports a failure, since a driver
+/// may report a failure and still return zeros. The message names `path`.
 template <class Read>
 Result<void> read_or_explain(Session& session, const Window& window, const std::string& path, Read read) {
   session.clear();
@@ -99,8 +99,8 @@ Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
   return {};
 }
 
-/// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain(), and with kCancelled if the
-/// callback requests it.
+/// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain() does, and with kCancelled if
+/// the callback requests it.
 template <class Read>
 Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {

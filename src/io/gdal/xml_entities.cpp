@@ -11,7 +11,7 @@
 namespace scarp::gdal {
 namespace {
 
-/// No GIS writes as many bytes before the root element.
+/// No GIS writes this many bytes before the root element.
 constexpr std::size_t kLongestProlog = std::size_t{1} << 20;
 
 struct CloseFile {

@@ -29,7 +29,7 @@ struct GlbItems {
   std::uint64_t index(std::uint64_t i) const;
 };
 
-/// 0 for a type unknown to glTF.
+/// Bytes of a component; 0 for a type unknown to glTF.
 std::uint64_t size_of_component(std::uint64_t component_type);
 
 class GlbArrays {

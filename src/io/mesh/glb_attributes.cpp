@@ -54,7 +54,7 @@ double find_height_step(const Mesh& mesh) {
   return exponent == std::numeric_limits<int>::max() ? 1 : std::ldexp(1.0, exponent);
 }
 
-/// Rounds to twelve significant bits. The others become 0, which compresses to nothing.
+/// Rounds to twelve significant bits. The other bits become 0, which compresses to nothing.
 float round_significand(double value) {
   int power = 0;
   const double digits = std::frexp(value, &power);
@@ -87,7 +87,7 @@ GlbAttribute floats(std::string name, std::size_t width, std::function<float(std
           }};
 }
 
-/// Fractions of 65535, padded to multiples of 4 bytes.
+/// Values 0 … 1 as multiples of 1/65535, padded to multiples of 4 bytes.
 GlbAttribute shares(std::string name, std::size_t width, std::function<double(std::size_t, std::size_t)> value) {
   const std::size_t padded = (width + 1) / 2 * 2;
   return {std::move(name),

@@ -14,7 +14,6 @@
 
 namespace scarp {
 
-/// A per-vertex attribute.
 struct GlbAttribute {
   std::string name;
   int component = 0;      ///< glTF's component type
@@ -33,7 +32,7 @@ struct GlbGrid {
   std::array<double, 3> number(const double* offsets) const;
 };
 
-/// The coarsest grid, for cells of this size, that represents every position exactly; else the plain grid.
+/// The coarsest grid that represents every position exactly, for cells of size `cell`; else the plain grid.
 GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
 /// True if the grid represents x and y exactly.
 bool holds_positions(const GlbGrid& grid, const Mesh& mesh);
@@ -46,7 +45,7 @@ std::array<T, 3> to_y_up(T x, T y, T z) {
 
 /// True if the channels repeat the colours: three as red, green and blue, or one as grey.
 bool colors_say_channels(const Mesh& mesh);
-/// Represents a missing channel value, as declared in the primitive's extras: JSON and glTF have no NaN.
+/// Represents a missing channel value, as declared in the primitive's extras, since JSON and glTF have no NaN.
 inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
 
 /// POSITION is first. The mesh, the grid and the options must outlive the result.

@@ -94,7 +94,7 @@ class GlbReader : public GlbArrays {
     return true;
   }
 
-  /// Visits the nodes of the default scene, the first scene, or all nodes; without nodes, all meshes.
+  /// Visits the nodes of the default scene, else of the first scene, else all nodes. Without nodes, visits all meshes.
   bool read_scene() {
     const Json* nodes = member(json_, "nodes");
     if (!nodes || !nodes->is_array() || nodes->empty()) {
@@ -234,7 +234,7 @@ class GlbReader : public GlbArrays {
   }
 
   bool append_positions(const GlbItems& items, const Transform& transform) {
-    // Instances may multiply a file's contents. Terrains use no instances, malicious files millions.
+    // Instances may multiply a file's contents. Terrains use no instances, but malicious files may use millions.
     const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
     if (items.count > most || mesh.vertex_count() + items.count > most)
       return refuse("it repeats its meshes too often");
@@ -300,7 +300,7 @@ class GlbReader : public GlbArrays {
     return true;
   }
 
-  /// Linear light, with or without alpha.
+  /// Colours in linear light, with or without alpha.
   bool append_colors(const Json& attributes, std::uint64_t count) {
     if (!member(attributes, "COLOR_0")) return true;
     std::uint64_t accessor = 0;

@@ -1,6 +1,6 @@
-// MSH 4.1 of Gmsh, as text: nodes and elements in blocks, each on an entity. A material's triangles are a surface, and
-// a node string is a curve. Each belongs to a physical group; solvers use its name. Nodes keep the order of the mesh's
-// vertices, and elements have the numbers of its triangles. A section $Comments holds metadata.
+// MSH 4.1 of Gmsh, as text. Nodes and elements are in blocks, each for one entity. A material's triangles are a
+// surface, and a node string is a curve. Each entity belongs to a physical group, whose name solvers use. Nodes keep
+// the order of the mesh's vertices, and elements have the numbers of its triangles. A section $Comments holds metadata.
 //
 // The reader also accepts version 2, which other programs write: each section has a single list.
 
@@ -177,7 +177,7 @@ class GmshWriter {
     put("$EndEntities\n");
   }
 
-  /// Writes all nodes on the first surface, to preserve their order.
+  /// Writes all nodes as nodes of the first surface, to preserve their order.
   void write_nodes() {
     const std::size_t count = mesh_.vertex_count();
     put("$Nodes\n1 {0} 1 {0}\n2 1 0 {0}\n", count);

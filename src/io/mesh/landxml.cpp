@@ -1,7 +1,7 @@
 // LandXML 1.2, the exchange format of civil engineering: one TIN surface. Numbered points have northing, easting and
 // elevation; faces refer to three points. A Feature, LandXML's extension element, holds the mesh's metadata.
 //
-// A LandXML file has one unit for all lengths, including heights, and no degrees: incompatible meshes are rejected
+// A LandXML file has one unit for all lengths, including heights, and no degrees. So incompatible meshes are rejected
 // rather than converted. The date required by the schema is constant, so that equal meshes give equal files.
 
 #include <fmt/format.h>
@@ -103,7 +103,7 @@ std::string property(std::string_view label, const std::string& value) {
   return fmt::format("        <Property label=\"{}\" value=\"{}\"/>\n", with_entities(label), with_entities(value));
 }
 
-/// Reads surfaces separately: each numbers its own points.
+/// Reads surfaces separately, since each has its own point numbers.
 class LandXmlReader {
  public:
   explicit LandXmlReader(std::span<const std::uint8_t> bytes) : xml_(bytes) {}

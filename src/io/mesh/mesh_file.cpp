@@ -79,7 +79,7 @@ std::string find_beyond_int32(const Mesh& mesh, const MeshFormatTraits& traits) 
                      kMost, count);
 }
 
-/// The fault of the zones, which may be null; empty if none.
+/// The fault of the zones; empty if there is none, or `zones` is null.
 std::string find_unwritable_zones(const Mesh& mesh, const MeshZones* zones, const MeshFormatTraits& traits) {
   if (zones == nullptr) return {};
   if (!traits.holds_zones) return fmt::format("{} has no place for materials and node strings", traits.title);

@@ -24,9 +24,9 @@ std::string metadata_line(const std::string& key, const std::string& value);
 /// The reverse of metadata_line(). Returns false if there is no separator.
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
 
-/// The same in printable ASCII for any bytes, for formats that declare an encoding.
+/// Like metadata_line(), but in printable ASCII for any bytes, for formats that declare an encoding.
 std::string ascii_metadata_line(const std::string& key, const std::string& value);
-/// A single key or value in printable ASCII: '%', '\\' and all bytes outside it become %XX; and the inverse.
+/// Converts a single key or value to printable ASCII, and back: '%', '\\' and bytes outside printable ASCII become %XX.
 std::string ascii_text(const std::string& text);
 std::string undo_ascii_text(std::string_view text);
 

@@ -12,7 +12,7 @@ namespace scarp {
 /// Parses the whole word as a number, correctly rounded and independent of the locale, including "nan" and "inf".
 /// Returns false for other words.
 bool parse_number(std::string_view word, double& value);
-/// Parses the whole word as a decimal integer. Returns false for other words and beyond 64 bits.
+/// Parses the whole word as a decimal integer. Returns false for other words, and for integers beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// True if the bytes begin with those of the text.

@@ -109,7 +109,7 @@ class Splitter {
     return part;
   }
 
-  /// Thrice the centre of a triangle.
+  /// Three times the centre of a triangle.
   double centre(std::uint32_t triangle, std::size_t axis) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -174,7 +174,7 @@ class Splitter {
     return middle;
   }
 
-  /// The median. Buckets are ordered, so only one is searched.
+  /// The median. The values are in ordered buckets, so only one bucket is searched.
   static double median_of(std::span<const double> centres, const Extent& extent, int threads) {
     constexpr std::size_t kBuckets = 1024;
     const double scale = extent.high > extent.low ? (kBuckets - 1) / (extent.high - extent.low) : 0;

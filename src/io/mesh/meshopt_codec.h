@@ -32,11 +32,11 @@ void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint
 /// Encodes items of `stride` bytes (a multiple of 4 up to 256) in version 0 of the codec, which every decoder reads.
 /// Empty in a build without the codec.
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride);
-/// Encodes triangles by their corners. They may be rotated: the same winding with another first corner.
+/// Encodes triangles by their corners. A decoded triangle may begin with another corner, in the same winding.
 std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t> corners, std::size_t vertices);
 
-/// Returns an error message, or null: `items` then holds count · stride bytes. Handles hostile streams. Allocates no
-/// more than their bytes can encode.
+/// Returns an error message, or null for success; `items` then holds count · stride bytes. Handles hostile streams.
+/// Allocates no more than their bytes can encode.
 const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items);
 
 }  // namespace scarp

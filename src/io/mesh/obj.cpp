@@ -66,7 +66,7 @@ struct ObjReader {
     colors.insert(colors.end(), rgb, rgb + 3);
   }
 
-  /// Colours are 0 … 1, or bytes in files where one is larger.
+  /// Colours are 0 … 1, or bytes if a value in the file is larger.
   void take_colors() {
     if (colors.size() != mesh.positions.size()) return;
     const bool bytes = std::any_of(colors.begin(), colors.end(), [](double part) { return part > 1; });

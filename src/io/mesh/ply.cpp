@@ -1,6 +1,6 @@
-// PLY: a text header that describes the rest. The writer writes binary little-endian absolute positions: as floats,
-// which more programs read, if these are exact, otherwise as doubles. The reader accepts text and both byte orders, any
-// numeric types, properties in any order, unknown elements, and polygons.
+// PLY: a text header that describes the rest. The writer writes absolute positions in binary, little-endian. They are
+// floats, which more programs read, if floats are exact, and doubles otherwise. The reader accepts text and both byte
+// orders, any numeric types, properties in any order, unknown elements, and polygons.
 //
 // The reader parses items property by property. Needed values have a slot in a small table; others are skipped.
 
@@ -214,7 +214,7 @@ class PlyReader {
   }
 
   std::string read_element(const Element& element) {
-    if (element.properties.empty()) return {};  // its items have no bytes, for any count
+    if (element.properties.empty()) return {};  // its items have no bytes, whatever their count
     std::size_t least = 0;                      // smallest size of an item; a digit and a space in text
     std::bitset<kSlots> slots;
     for (const Property& property : element.properties) {

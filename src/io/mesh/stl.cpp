@@ -51,7 +51,7 @@ std::optional<std::string> parse_placement(std::string_view header) {
   return text;
 }
 
-/// Decimal text if it fits the header, as nearly always; else the bits of the three doubles.
+/// Decimal text if it fits the header, which is nearly always true; else the bits of the three doubles.
 std::string place_text(const Mesh& mesh) {
   const std::array<double, 3>& origin = mesh.origin;
   if (const auto placed = mesh.metadata.find(kPlacementKey); placed != mesh.metadata.end()) {

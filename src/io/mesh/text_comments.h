@@ -26,7 +26,7 @@ struct TextComments {
   static constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end",
                                     kKey = "scarp ";
 
-  /// Parses the text behind a "#".
+  /// Parses the text after a "#".
   void read(std::string_view text, std::map<std::string, std::string>& metadata) {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
     if (text.starts_with(kCounts)) {

@@ -2,7 +2,7 @@
 // Packaging Conventions). The 3MF consortium's library is used only in tests, to read Scarp's files. Its output is not
 // reproducible: it numbers objects at random and rounds coordinates to six decimals.
 //
-// Coordinates are written as the shortest decimals of float32, and read as float32, as by slicers. The mesh's metadata
+// Coordinates are written as the shortest decimals of float32, and read as float32, as slicers do. The mesh's metadata
 // are lines of one metadata element in Scarp's namespace, because their keys may be invalid XML names.
 
 #include <fmt/format.h>

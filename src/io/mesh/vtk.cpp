@@ -1,7 +1,7 @@
 // Writes VTK's XML formats: an unstructured grid (.vtu) or polydata (.vtp) of triangles, with double positions.
 //
 // The arrays follow the XML as raw little-endian bytes, each after its length. The XML holds their offsets from the
-// mark '_'. Metadata are written as comments: programs differ in which text arrays they accept among the data.
+// mark '_'. Metadata are written as comments: programs accept different text arrays among the data.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// The uncompressed arrays of VTK's XML files: text, base64, or raw bytes behind the XML.
+// The uncompressed arrays of VTK's XML files: text, base64, or raw bytes after the XML.
 #pragma once
 
 #include <bit>
@@ -19,11 +19,11 @@ enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kU
 /// "Float64", "UInt8" …; nothing if VTK has no such numeric type.
 std::optional<VtkType> find_vtk_type(std::string_view name);
 
-/// The root element's attributes that all arrays share, and the bytes behind the XML.
+/// The root element's attributes that all arrays share, and the bytes after the XML.
 struct VtkFile {
   std::endian order = std::endian::little;
   bool wide_lengths = false;               ///< lengths of arrays have 64 bits, not 32
-  std::span<const std::uint8_t> appended;  ///< starts behind the mark '_'; in base64 if `is_base64`
+  std::span<const std::uint8_t> appended;  ///< starts after the mark '_'; in base64 if `is_base64`
   bool is_base64 = false;
 };
 

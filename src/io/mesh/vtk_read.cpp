@@ -242,7 +242,8 @@ class VtkReader {
                                                                          : std::numeric_limits<float>::quiet_NaN();
   }
 
-  /// An array with `components` numbers per point. Empty if the piece has no such array, or not for all points.
+  /// An array with `components` numbers per point. Empty if the piece has no such array, or the array does not cover
+  /// all points.
   Result<VtkNumbers> load_point_data(const VtkPiece& piece, const std::string& name, std::size_t components) {
     const std::string key = "PointData/" + name;
     if (piece.arrays.find(key) == piece.arrays.end()) return VtkNumbers();
@@ -296,7 +297,7 @@ class VtkReader {
   VtkFile file_;
   bool is_polydata_ = false;
   std::vector<VtkPiece> pieces_;
-  std::size_t loaded_ = 0;  // bytes of arrays behind the XML
+  std::size_t loaded_ = 0;  // bytes of arrays after the XML
   std::optional<std::array<double, 3>> origin_;
 };
 

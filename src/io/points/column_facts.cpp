@@ -13,8 +13,8 @@ namespace {
 /// A northing of middle latitudes, in metres from the equator.
 bool is_mid_northing(const ColumnFacts& facts) { return facts.lies_in(4.0e6, 7.9e6); }
 
-/// The zone number in front of an easting of about half a million: Gauss-Krueger, Poland 2000. 0: none. Zone 1 is
-/// excluded, since its eastings resemble northings in feet.
+/// The zone number in front of an easting of about half a million: Gauss-Krueger, Poland 2000. 0 if there is none. Zone
+/// 1 is excluded, since its eastings resemble northings in feet.
 int zone_of(const ColumnFacts& facts) {
   const double zone = std::floor(facts.low / 1e6), base = zone * 1e6;
   return zone >= 2 && zone <= 60 && facts.lies_in(base + 2e5, base + 8e5) ? static_cast<int>(zone) : 0;
@@ -79,8 +79,8 @@ PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other) {
 
 namespace {
 
-/// True if the first column numbers the points: whole, while x and y have decimals; or in even steps, unlike x and y;
-/// or whole and unique before map coordinates.
+/// True if the first column numbers the points. Its values are whole, while x and y have decimals; or they have even
+/// steps, unlike x and y; or they are whole and unique before map coordinates.
 bool first_counts(const Rows& rows, const std::vector<std::size_t>& list) {
   const ColumnFacts &number = rows.columns[0], &a = rows.columns[list[1]], &b = rows.columns[list[2]];
   if (number.are_whole && !a.are_whole && !b.are_whole) return true;

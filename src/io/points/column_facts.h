@@ -17,7 +17,7 @@ struct ColumnFacts {
   std::uint64_t filled = 0, numbers = 0;
   double low = std::numeric_limits<double>::infinity(), high = -low, first = 0, last = 0, step = 0;
   bool are_whole = true, has_even_steps = true;
-  bool leads_with_zero = false;         ///< at least one of several digits does
+  bool leads_with_zero = false;         ///< at least one number of several digits does
   std::size_t narrow = 1000, wide = 0;  ///< characters
 
   void add(std::string_view field, bool has_decimal_comma);
@@ -37,16 +37,15 @@ struct Rows {
   std::vector<std::size_t> coordinates() const;
 };
 
-/// The possible orders of a pair of columns as map coordinates, by size.
+/// The orders in which a pair of columns may be map coordinates, judged by size.
 struct PairFit {
   bool is_east_first = false, is_north_first = false;
 };
 PairFit fit_pair(const ColumnFacts& one, const ColumnFacts& other);
-/// UTM and most national grids have northings beyond a million, and eastings below.
+/// UTM and most national grids have northings above a million, and eastings below.
 bool is_northing(const ColumnFacts& facts);
 bool is_easting(const ColumnFacts& facts);
 
-/// A doubt about a column of heights.
 struct HeightDoubt {
   std::string why;          ///< "counts", "is 0 everywhere"
   std::size_t instead = 0;  ///< a later column that may hold heights

@@ -33,8 +33,8 @@ bool is_axis_letter(std::string_view name);
 bool names_degrees(std::string_view name);
 
 /// The columns named by --columns: words with commas between them ("number,northing,easting,height,code"), or letters
-/// ("pnezd"): p number, e or x, n or y, z or h height, d or c code, - or skip nothing. Fails with kUsage for another
-/// word, and if x, y or height is missing or repeated.
+/// ("pnezd"): p number, e or x, n or y, z or h height, d or c code, - or "skip" for an unused column. Fails with kUsage
+/// for another word, and if x, y or height is missing or repeated.
 Result<std::array<std::size_t, 3>> parse_columns(const std::string& given, std::string& words);
 
 }  // namespace scarp

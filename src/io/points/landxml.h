@@ -31,7 +31,7 @@ struct LandXmlHead {
 /// A warning that this build does not know the CRS.
 std::string warn_of_unknown_crs(const LandXmlHead& head, const std::string& path);
 
-/// The complaint with the line of the file; empty for an empty one.
+/// The complaint with the line of the file; empty for an empty complaint.
 std::string at_line(const XmlReader& xml, const std::string& why);
 
 /// Replaces `numbers` by the numbers in the text. Returns a complaint, or an empty string.

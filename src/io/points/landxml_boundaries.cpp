@@ -19,7 +19,6 @@ namespace {
 using BoundaryPlace = std::array<double, 2>;           // easting, northing
 using PointKey = std::pair<std::string, std::string>;  // surface, empty for survey points; name of the point
 
-/// A boundary as given in the file.
 struct GivenBoundary {
   std::string surface;
   BoundaryKind kind = BoundaryKind::kOuter;

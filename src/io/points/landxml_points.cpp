@@ -35,13 +35,12 @@ struct Part {
   PointSet source, vertices;                  ///< source data of a surface, and its TIN
   bool has_outer = false, has_voids = false;  ///< boundaries
   std::uint64_t faces = 0;
-  std::uint64_t flat = 0, short_lines = 0;  ///< points and lines without elevation; lines of a single point
+  std::uint64_t flat = 0, short_lines = 0;  ///< points and lines without elevation; lines with a single point
 
   bool has_source() const { return source.size() > 0; }
   PointSet& points() { return has_source() ? source : vertices; }
 };
 
-/// The content of a file.
 struct Content {
   std::vector<Part> parts;  ///< the survey points first
   LandXmlHead head;

@@ -112,7 +112,7 @@ std::string option_for(std::size_t count, std::array<std::size_t, 3> at, bool ha
   return text;
 }
 
-/// Warns of headers with x and y in which x may be the northing, as for geodesists: x is larger, or y precedes it.
+/// Warns of headers with x and y in which x may be the northing, as geodesists define it: x is larger, or y precedes x.
 void warn_of_turned_names(const Rows& rows, PointColumns& columns) {
   const auto [x, y, height] = columns.at;
   if (std::max(x, y) >= rows.columns.size()) return;

@@ -24,7 +24,7 @@ struct PointColumns {
   bool has_decimal_comma() const { return separator != ','; }
 };
 
-/// The separator of a line's fields: that of its numbers if it has two, else of its words.
+/// The separator of a line's fields: that between its numbers if it has two, else that between its words.
 char find_separator(std::string_view line);
 
 /// True for a line of words, which are column names.

@@ -19,7 +19,7 @@ struct Axis {
   int place(double value) const { return static_cast<int>(std::lround((value - low) / step)); }
 };
 
-/// The step is the mean of gaps near the median, since lines may be missing, and decimals rounded.
+/// The step is the mean of gaps near the median, since lines may be missing and decimals may be rounded.
 Axis find_axis(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

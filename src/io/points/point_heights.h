@@ -35,8 +35,8 @@ std::string crs_command(const PointSet& points, const std::string& crs);
 Result<void> place_without_crs(const ReadPointsOptions& options, PointSet& points);
 
 /// Scales the heights as the options request, and to metres if the frame or the output file is in metres. On input,
-/// points.heights has the unit in a column's or attribute's name, and as crs_unit that of x and y; the rest is set
-/// here. `vertical`: the unit of the vertical CRS. REQUIRES: x and y are in their frame.
+/// points.heights holds the unit in a column's or attribute's name, and its crs_unit is the unit of x and y. The rest
+/// is set here. `vertical`: the unit of the vertical CRS. REQUIRES: x and y are in their frame.
 Result<void> settle_point_heights(const ReadPointsOptions& options, const HeightUnit& vertical, PointSet& points);
 
 }  // namespace scarp

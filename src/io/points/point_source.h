@@ -1,4 +1,4 @@
-// The readers behind read_points().
+// The readers that read_points() calls.
 #pragma once
 
 #include <cstdint>

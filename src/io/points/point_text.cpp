@@ -81,7 +81,7 @@ bool read_line(std::string_view line, const PointColumns& columns, std::array<do
   return true;
 }
 
-/// True for small coordinates, possible on the globe, with heights that are large in comparison.
+/// True for coordinates so small that they may be degrees, with heights that are large in comparison.
 bool looks_like_degrees(const PointSet& points) {
   double extent = 0, relief = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,4 +1,4 @@
-// The common entry for points: the extension, else the first bytes, select a file's reader.
+// The common entry for points. The extension, or else the first bytes, select a file's reader.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -68,11 +68,10 @@ bool is_text_of_columns(const std::string& path) {
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
   if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
-  const bool is_copy = name && *name != path;  // copy of a pipe, whose name shows nothing
+  const bool is_copy = name && *name != path;  // copy of a pipe; the pipe's name shows nothing
   return is_copy && is_plain_text(head);
 }
 
-/// An ESRI or a Surfer ASCII grid.
 bool holds_plain_text(const std::string& path) { return is_plain_text(read_head(path)); }
 
 bool begins_as_grid(const std::string& path) {
@@ -146,7 +145,7 @@ bool is_point_file(const std::string& path) {
 
 namespace {
 
-/// Judged by its first bytes, or by its name if there are none.
+/// True if the first bytes show LAS, or an existing file is named .las or .laz.
 bool is_las(const std::string& path) {
   const std::vector<std::uint8_t> head = read_head(path);
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
@@ -219,8 +218,8 @@ void warn_of_missing_heights(PointSet& points) {
   }
 }
 
-/// Warns of points at the place farthest from all others, if the others' extent is tiny compared with its distance.
-/// Points without coordinates usually lie at 0, 0.
+/// Warns of points at the place farthest from all other points, if the extent of the others is tiny compared with the
+/// distance. Points without coordinates usually lie at 0, 0.
 void warn_of_far_points(PointSet& points) {
   if (points.size() < 4) return;
   const auto middle = [](std::vector<double> values) {

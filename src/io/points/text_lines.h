@@ -1,4 +1,4 @@
-// Lines, fields and numbers of text of columns.
+// Lines, fields and numbers of text in columns.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class TextLines {
   /// The 1-based number of the line that next() returned last.
   std::uint64_t number() const { return number_; }
   std::size_t bytes_left() const { return rest_.size(); }
-  /// The comment just before that line, without its sign; empty if there is none.
+  /// The comment just before that line, without its comment sign; empty if there is none.
   std::string_view comment() const { return comment_; }
 
  private:
@@ -30,8 +30,8 @@ class TextLines {
 /// blanks and tabs. A field in quotes may contain separators; the quotes are removed.
 std::optional<std::string_view> take_field(std::string_view& line, char separator);
 
-/// The number in the text, which may be infinite or NaN, or overflow; 0 if it underflows; nothing if the text is no
-/// number. `has_decimal_comma`: the decimal point is a comma.
+/// The number in the text, which may be infinite or NaN; infinity if it overflows, 0 if it underflows. Nothing if the
+/// text is no number. `has_decimal_comma`: the decimal point is a comma.
 std::optional<double> parse_field(std::string_view text, bool has_decimal_comma);
 
 }  // namespace scarp

@@ -17,7 +17,7 @@ struct HeightUnit {
 
 /// Metres per unit of length, by one of its names: "m", "Metre", "US survey foot", "cm" …
 std::optional<double> find_metres(const std::string& name);
-/// True for any kind of foot. Feet differ by a few parts in a hundred thousand.
+/// True for any kind of foot. Kinds of feet differ by a few parts in a hundred thousand.
 bool is_foot(double metres);
 
 /// The options for reading the heights of a raster in `frame`: z_scale converts heights to metres if requested.

@@ -31,7 +31,7 @@ class Text {
     return '\n';
   }
 
-  /// Parses a number after white space, and consumes the byte behind it. Nothing at the end, for other characters, and
+  /// Parses a number after white space, and consumes the byte after it. Nothing at the end, for other characters, and
   /// for numbers above 2^31 − 1.
   std::optional<std::uint32_t> number() {
     int c = next();

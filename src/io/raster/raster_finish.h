@@ -13,8 +13,8 @@ namespace scarp {
 /// Fails with kInput if the size is below 2×2, or a side exceeds an int.
 Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows);
 
-/// The same; also fails with kInput if the raster needs more memory than `options` or the machine allow. The message
-/// has the figures.
+/// Like check_raster_sides(); also fails with kInput if the raster needs more memory than `options` or the machine
+/// allow. The message contains both figures.
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
                                const ReadOptions& options, std::uint64_t bands = 1);
 
@@ -30,18 +30,18 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
 
 /// True if heights differ from the file's values.
 bool scales_heights(const ReadOptions& options);
-/// Scales integer values, read from a file without its own scale, by z_scale and z_offset of settle_heights(), and sets
-/// their rounding.
+/// Scales integer values by the z_scale and z_offset of settle_heights(), and sets their rounding. REQUIRES: the file
+/// declares no scale.
 void scale_values(const ReadOptions& options, OwnedHeightField& field);
 
-/// The grid frame, or with a cell size a frame centred on the raster.
+/// The grid frame, or, if a cell size is given, a frame centred on the raster.
 Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options);
 
 /// The frame of a raster without georeference. Fails with kUsage if options.crs requests a position.
 Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows, const ReadOptions& options);
 
-/// The same for a format with a single band (`kind`: "a PGM", …). Also fails with kInput for options that request
-/// another band or packed colours.
+/// Like ungeoreferenced_frame(), for a format with a single band (`kind`: "a PGM", …). Also fails with kInput for
+/// options that request another band or packed colours.
 Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,
                               const ReadOptions& options);
 

@@ -14,10 +14,10 @@ namespace scarp {
 /// with kInput and the reason.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
 
-/// open_height_field(), likewise.
+/// open_height_field() for these formats.
 Result<OwnedHeightField> open_gdal_raster(const std::string& path, const ReadOptions& options);
 
-/// read_channels(), likewise.
+/// read_channels() for these formats.
 Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions& options, bool all_bands);
 
 /// encode_raster() as GeoTIFF; may throw std::bad_alloc. In a build without GDAL it fails with kOutput.

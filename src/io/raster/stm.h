@@ -14,8 +14,8 @@ bool is_stm(std::span<const std::uint8_t> bytes);
 
 /// Decodes a text header "STM width height ", four bytes that are 0x04030201 in the writer's byte order, a newline, and
 /// unsigned 16-bit samples in that byte order, by rows from the north-west corner. 65535 is nodata unless
-/// options.nodata is another value. Grid frame. Fails with kInput: not an STM, an unknown byte order, size below 2×2,
-/// samples missing or trailing bytes.
+/// options.nodata is another value. Heights are in the grid frame. Fails with kInput for other files, an unknown byte
+/// order, a size below 2×2, missing samples, and trailing bytes.
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 

@@ -16,7 +16,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Builds an archive.
 class ArchiveOf3tz {
  public:
   explicit ArchiveOf3tz(StagedFile& file) : output_(file) {}

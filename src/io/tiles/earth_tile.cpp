@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-/// Distance of a horizon point that hides a tile from no viewer near a planet.
+/// Distance of a horizon point too far away to hide a tile from viewers near a planet.
 constexpr double kFarOut = 1000;
 
 std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& steps) {

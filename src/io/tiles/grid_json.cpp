@@ -8,7 +8,7 @@ namespace scarp {
 namespace {
 
 constexpr double kMostSamples = 1 << 30;
-/// Cells per tile; a square with more cells is the smallest one that contains the raster.
+/// Most cells per side of a tile. A larger square must be the smallest one that contains the raster.
 constexpr double kMostCells = 256;
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 /// zlib's windowBits: the largest window, in a gzip file.
 constexpr int kGzipWindow = 15 + 16;
 
-/// zlib's memLevel for a mesh: so few symbols share a code table that positions, heights, triangles and normals have
+/// zlib's memLevel for a mesh. So few symbols share a code table that positions, heights, triangles and normals have
 /// separate tables.
 constexpr int kMeshMemory = 5;
 /// Files below this size in bytes, or compressed below this fraction, may contain repetitions.

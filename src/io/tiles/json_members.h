@@ -21,7 +21,7 @@ inline std::optional<double> find_number(const Json* object, const char* key) {
   return found != nullptr && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-/// An integer from 0 on.
+/// A non-negative integer.
 inline std::optional<std::uint64_t> find_count(const Json* object, const char* key) {
   const Json* const found = find_member(object, key);
   return found != nullptr && found->is_number_unsigned() ? std::optional(found->get<std::uint64_t>()) : std::nullopt;

@@ -30,7 +30,7 @@ std::vector<TileRange> find_ranges(const std::vector<std::uint64_t>& tiles) {
       }
       ++k;
     }
-    // Extend a run upwards if the previous row has the same one.
+    // Extends a run upwards if the previous row has an equal run.
     for (TileRange& run : row) {
       const auto below = std::find_if(open.begin(), open.end(), [&](const TileRange& one) {
         return one.x == run.x && one.end_x == run.end_x && one.end_y + 1 == y;

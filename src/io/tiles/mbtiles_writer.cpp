@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// "MPBX", given by the specification.
+/// The application id, "MPBX", is given by the specification.
 constexpr const char* kSchema = R"(
 PRAGMA application_id = 0x4d504258;
 PRAGMA journal_mode = OFF;

@@ -29,7 +29,7 @@ struct PmtilesEntry {
 };
 /// Uncompressed.
 std::vector<std::uint8_t> encode_pmtiles_directory(std::span<const PmtilesEntry> entries);
-/// Nothing for an invalid directory: numbers must increase, lengths exceed 0, and entries not exceed `most`.
+/// Nothing unless numbers increase, lengths exceed 0, and there are at most `most` entries.
 std::optional<std::vector<PmtilesEntry>> decode_pmtiles_directory(std::span<const std::uint8_t> bytes,
                                                                   std::uint64_t most);
 
@@ -49,7 +49,7 @@ struct PmtilesHeader {
 };
 /// The header of a clustered archive with a tile type unknown to PMTiles.
 std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const PmtilesHeader& header);
-/// Fails with kInput and the end of a sentence for other files and versions. Omits the bounds.
+/// Fails with kInput and the end of a sentence for other files and versions. Does not read the bounds.
 Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes);
 
 /// Size limit for the metadata unpacked from `packed` bytes: below gzip's maximum, and above the needs of tile

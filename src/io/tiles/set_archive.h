@@ -30,7 +30,6 @@ class ChunkedOutput {
  public:
   explicit ChunkedOutput(StagedFile& file) : file_(&file) {}
   Result<void> add(std::span<const std::uint8_t> bytes);
-  /// Writes the remaining bytes.
   Result<void> flush();
   std::uint64_t position() const { return position_; }
 

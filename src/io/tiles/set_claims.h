@@ -21,7 +21,7 @@ struct ClaimedTiles {
 struct ClaimedRoot {
   std::string volume;           ///< "region" or "box"; empty if absent or invalid
   std::vector<double> numbers;  ///< numbers of the volume: 6 or 12
-  std::string refine;           ///< its own; empty if inherited
+  std::string refine;           ///< its own refinement; empty if inherited
   std::optional<double> geometric_error;
   bool has_transform = false;
   std::vector<double> transform;  ///< 16; empty if invalid
@@ -32,7 +32,7 @@ struct ClaimedRoot {
 struct SetClaims {
   std::vector<std::string> faults;                ///< sentences on missing, unreadable or invalid contents
   std::vector<std::vector<ClaimedTiles>> levels;  ///< announced tiles
-  bool announces_all = true;                      ///< false if tiles themselves announce others
+  bool announces_all = true;                      ///< false if tiles announce further tiles
   std::vector<std::optional<double>> node_errors, bounds, source_errors;  ///< by level, in Scarp's sets
   bool has_water_mask = false;                                            ///< tiles have one
   std::optional<int> cells;
@@ -44,7 +44,7 @@ struct SetClaims {
   FactsByTile facts;                      ///< facts of 3D Tiles
   std::optional<double> geometric_error;  ///< geometric error of tileset.json as a whole
   std::vector<ClaimedRoot> roots;         ///< roots of tileset.json, parents first
-  std::optional<std::array<double, 2>> off_globe;  ///< offset of a local grid: ground metres, and height
+  std::optional<std::array<double, 2>> off_globe;  ///< largest error of a local grid on the ground, and in height
 };
 
 /// Handles hostile files: invalid claims become faults.

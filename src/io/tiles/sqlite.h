@@ -29,7 +29,7 @@ inline void bind_text(sqlite3_stmt* statement, int place, std::string_view text)
   sqlite3_bind_text64(statement, place, text.data(), text.size(), SQLITE_STATIC, SQLITE_UTF8);
 }
 inline void bind_blob(sqlite3_stmt* statement, int place, std::span<const std::uint8_t> bytes) {
-  // Null is no blob.
+  // A null pointer would store NULL, not an empty blob.
   sqlite3_bind_blob64(statement, place, bytes.empty() ? "" : static_cast<const void*>(bytes.data()), bytes.size(),
                       SQLITE_STATIC);
 }

@@ -11,8 +11,8 @@ namespace scarp {
 /// it; the lock always ends with the process.
 class StagedFolder {
  public:
-  /// First deletes folders of killed processes of this machine for the same final name. `target`: the final name. Fails
-  /// with kOutput if no folder can be created.
+  /// First deletes folders that killed processes on this machine created for the same final name. `target`: the final
+  /// name. Fails with kOutput if no folder can be created.
   static Result<StagedFolder> create_beside(const std::filesystem::path& target);
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder(const StagedFolder&) = delete;

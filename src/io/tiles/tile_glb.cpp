@@ -26,7 +26,8 @@ constexpr std::size_t kShortIndices = 65535;
 constexpr std::uint32_t kShort = 65535;
 constexpr double kMostUnlike = 4;
 
-/// Octahedral in signed bytes, for decoding by EXT_meshopt_compression's filter: x, y, the value of 1, and 0.
+/// The octahedral encoding in signed bytes, for decoding by EXT_meshopt_compression's filter: x, y, the value of 1, and
+/// 0.
 std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
   const double size = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
   double x = normal[0] / size, y = normal[1] / size;

@@ -1,4 +1,4 @@
-// Stores tiles and files of a set as they arrive, until a container is written in its own order.
+// Stores tiles and files of a set as they arrive, until they are written to a container in its order.
 #pragma once
 
 #include <algorithm>

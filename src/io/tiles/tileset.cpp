@@ -156,7 +156,6 @@ Json describe_classes(bool is_flat) {
   return {{"id", "terrain"}, {"classes", {{kClass, {{"properties", properties}}}}}};
 }
 
-/// A root of implicit tiles.
 Json describe_root(std::uint32_t root, Json volume, double error, const PyramidPlan& plan) {
   return {{"boundingVolume", std::move(volume)},
           {"geometricError", error},
@@ -178,7 +177,6 @@ Json describe_square(const PyramidPlan& plan, double low, double high) {
   return {{"box", {x, y, (low + high) / 2, east, 0, 0, 0, north, 0, 0, 0, (high - low) / 2}}};
 }
 
-/// Adds the metadata of a local grid.
 void describe_plane(const PyramidPlan& plan, const LayerFacts& facts, Json& scarp) {
   if (!facts.plane) scarp.erase("ellipsoid");
   scarp["grid"] = describe_grid(plan.grid);

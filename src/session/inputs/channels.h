@@ -22,9 +22,9 @@ struct Channels {
 
   std::size_t count() const { return bands.bands.size(); }
   bool empty() const { return bands.bands.empty(); }
-  /// True if 8-bit colours or grey hold all data.
+  /// True if 8-bit colours or grey levels can hold all data.
   bool are_colors() const { return bands.is_8bit && (count() == 1 || (count() == 3 && bands.is_color)); }
-  /// Gives `field`, on the same grid, these channels, which must outlive it.
+  /// Adds these channels to `field`, which is on the same grid. They must outlive the field.
   void attach_to(HeightField& field) const;
 };
 
@@ -35,7 +35,7 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
                                const ProgressCallback& progress);
 
 /// An image: a height field of zeros with its bands as channels; nodata where a band has no value. A sample's error is
-/// the norm of weight · |error| of each band, in grey levels. Bands other than bytes are scaled to the largest range
+/// the norm of weight · |error| over all bands, in grey levels. Bands other than bytes are scaled to the largest range
 /// among them.
 struct Image {
   OwnedHeightField field;

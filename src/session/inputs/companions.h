@@ -15,7 +15,7 @@ namespace scarp::cli {
 
 /// The contents of the files; empty for options not given.
 struct Companions {
-  OwnedWeights mask;  ///< has a source if the heights have one; so do tolerances
+  OwnedWeights mask;  ///< has a source if the heights have one, like the tolerances
   OwnedTolerances tolerances;
   Script script;
   std::vector<std::string> warnings;
@@ -35,15 +35,15 @@ struct Companions {
 /// Settings for reading them. `memory` and `threads` matter only for heights with a source.
 struct CompanionRun {
   const ProgressCallback& progress;
-  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED for these
+  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED for heights with a source
   int threads = 0;           ///< number of threads that read windows
 };
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
-/// Refuses negative values. Mask: if the largest value exceeds 1, all are divided by it; no value means weight 0.
-/// Tolerance: no value means no bound. A sample in a region of interest has the smaller of the region's tolerance and
-/// the raster's; `bound` holds elsewhere. `raster`: the field's metadata, as read. Fails with kUsage if the values do
-/// not fit in memory next to heights with a source.
+/// Refuses negative values. Mask: if the largest value exceeds 1, all values are divided by it; a missing value means
+/// weight 0. Tolerance: a missing value means no bound. A sample in a region of interest has the smaller of the
+/// region's tolerance and the raster's; `bound` holds elsewhere. `raster`: the field's metadata, as read. Fails with
+/// kUsage if the values do not fit in memory next to heights with a source.
 Result<Companions> read_companions(const GivenOptions& given, const RasterInfo& raster, const OwnedHeightField& field,
                                    std::optional<double> bound, const CompanionRun& run);
 

@@ -21,7 +21,7 @@ std::uint64_t count_polygons(const std::vector<Line>& rings) {
       std::count_if(rings.begin(), rings.end(), [](const Line& ring) { return ring.role == LineRole::kOuter; }));
 }
 
-/// Lengths of the CRS' units along x and y, in metres if these are known.
+/// Lengths of the CRS' units along x and y, in metres if known.
 std::array<double, 2> unit_of(const RasterInfo& raster) {
   const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0 && raster.cell_x > 0 && raster.cell_y > 0;
   if (!has_metres) return {1, 1};

@@ -32,12 +32,12 @@ inline constexpr std::uint64_t kBoundedSampleBytes = 24;
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 
-/// The bytes of `limit` that a run on a field read within it cannot use: those of the program, of samples or their
-/// file's cache, and of other files.
+/// The bytes of `limit` that are no longer available after a field was read within it: those of the program, of samples
+/// or their file's cache, and of other files.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
-/// Opens another raster on the grid of a field that was read within the limit and has a source. If it is in memory, it
-/// has at most a quarter of the memory that the program does not use; otherwise it shares the cache.
+/// Opens another raster on the grid of a field that was read within the limit and has a source. If this raster is in
+/// memory, it has at most a quarter of the memory that the program does not use; otherwise it shares the cache.
 Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit);
 /// The bytes of `other` in addition to bytes_taken().
 std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);

@@ -30,10 +30,10 @@ Extent extent_of(const PointSet& points);
 
 /// The six numbers of the mesh's metadata `to_source`; nothing if they are missing or malformed.
 std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh);
-/// The map from places of `from` to places of `to`, two maps of that form to the same coordinates.
+/// The map from places of `from` to places of `to`; both are maps of that form to the same coordinates.
 std::array<double, 6> way_between(const std::array<double, 6>& from, const std::array<double, 6>& to);
 
-/// The raster's options; those not given are completed by the mesh's metadata.
+/// The raster's options; the mesh's metadata supply those not given.
 GivenOptions remember_options(const GivenOptions& given, const Mesh& mesh);
 /// Turns a mesh that has y up, if the format of its file `path` does not declare the axis.
 void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);

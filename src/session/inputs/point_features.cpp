@@ -38,7 +38,7 @@ Result<std::vector<Line>> read(const std::vector<std::string>& files, ReadLinesO
   return std::move(set.lines);
 }
 
-/// Warns of lines that are not at the points: above each other or next to the points.
+/// Warns of lines that are not at the points: too far above them, below them or away from them.
 void warn_of_strangers(const std::vector<Line>& lines, PointSet& points) {
   const auto reach_of = [](const std::vector<double>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());

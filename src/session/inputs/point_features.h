@@ -19,7 +19,7 @@ Result<void> add_breaklines(const GivenOptions& given, DuplicatePolicy duplicate
 /// Makes lakes of the united polygons of --water. Lakes outside the points cause a warning.
 Result<std::vector<PointLake>> add_lakes(const GivenOptions& given, DuplicatePolicy duplicates,
                                          const ProgressCallback& progress, PointSet& points);
-/// Drops the points in the lakes of --water, and all lines, for the judge of such a mesh.
+/// Drops the points in the lakes of --water, and all lines, before a mesh with lakes is judged.
 Result<void> drop_lakes(const GivenOptions& given, const ProgressCallback& progress, PointSet& points);
 
 /// Clips the points to the polygons of --boundary, if it names a file. `tolerance`: of the surface along the polygons.
@@ -28,8 +28,8 @@ Result<std::optional<BoundaryCut>> cut_to_boundary(const GivenOptions& given, Op
                                                    DuplicatePolicy duplicates, double tolerance,
                                                    const ProgressCallback& progress, PointSet& points);
 
-/// The points' tolerances, the smaller one of --tolerance and --roi, with `beyond` elsewhere; empty without these
-/// options. A file that lowers no tolerance causes a warning.
+/// The points' tolerances: the smaller of --tolerance and --roi, or `beyond` elsewhere; empty without these options. A
+/// file that lowers no tolerance causes a warning.
 Result<std::vector<float>> read_tolerances(const GivenOptions& given, double beyond, const ProgressCallback& progress,
                                            PointSet& points);
 

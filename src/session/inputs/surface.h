@@ -15,7 +15,7 @@ namespace scarp::cli {
 struct Surface {
   GivenSurface given;
   Mesh mesh;                        ///< empty for a level
-  std::optional<double> max_error;  ///< bound of its heights, by the file's metadata; 0: level
+  std::optional<double> max_error;  ///< bound of its heights, by the file's metadata; 0 for a level
 };
 
 /// The units of the frame in which surfaces are compared, as words for one line: "m³"; "cubic units" if the unit of x
@@ -32,8 +32,8 @@ Result<Surface> read_surface(const GivenSurface& given, bool is_y_up);
 /// False for a mesh whose file does not hold its place.
 bool has_place(const Surface& surface);
 
-/// Moves the second mesh into the frame of the first, by the places that their files hold. A mesh without a place is in
-/// the other mesh's frame. kInput for frames, or units of heights, that cannot be converted.
+/// Moves the second mesh into the frame of the first, by the places that their files hold. A mesh without a place is
+/// assumed in the other mesh's frame. kInput for frames, or units of heights, that cannot be converted.
 Result<SurfaceUnits> settle_frames(std::array<Surface, 2>& surfaces);
 
 }  // namespace scarp::cli

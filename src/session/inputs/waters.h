@@ -11,7 +11,7 @@
 
 namespace scarp::cli {
 
-/// Flattens the lakes of --water, or finds lakes by its part flats=N, and reads the lines of --rivers. `memory`:
+/// Flattens the lakes of --water, or finds lakes for its part flats=N, and reads the lines of --rivers. `memory`:
 /// without the lakes' share.
 Result<void> read_waters(const GivenOptions& given, const ProgressCallback& progress, const MemoryShare& memory,
                          OwnedHeightField& field, Features& features, std::vector<std::string>& warnings);

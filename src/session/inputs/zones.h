@@ -1,4 +1,4 @@
-// Materials by polygon and node strings along lines: reads their files and assigns parts of a mesh.
+// Materials by polygon, and node strings along lines. Reads their files and assigns them to parts of a mesh.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// Nothing without --lods. Fails for an invalid value or an OUTPUT without levels.
+/// Nothing without --lods. Fails for an invalid value or an OUTPUT format without levels.
 Result<std::optional<Levels>> parse_levels(const GivenOptions& given, const OutputFormat& format);
 
 /// The path of a level: hills.glb → hills_lod0.glb, the finest.

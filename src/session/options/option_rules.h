@@ -15,7 +15,8 @@ class GivenOptions;
 struct OptionRule {
   OptionTerm one;
   enum class Kind { kNeeds, kExcludes, kAllows } kind;
-  /// kNeeds: one of these. kExcludes: each of these. kAllows: all others except the group "Run" are excluded.
+  /// kNeeds: one of these is required. kExcludes: each of these is excluded. kAllows: all others are excluded, except
+  /// the group "Run".
   std::array<OptionTerm, 4> others;
   const char* why = "";  ///< end of the message
   Commands commands = kEveryCommand;

@@ -14,16 +14,16 @@ namespace scarp::cli {
 
 /// True if the input is to be read as points: by --points, or by its name.
 bool are_points_meant(const GivenOptions& given);
-/// Fails if one of several inputs holds points, which make no mosaic. Also fails for an option that has no effect on
-/// this kind of input, points or raster.
+/// Fails if one of several inputs holds points, which cannot form a mosaic. Also fails for an option that has no effect
+/// on this kind of input, points or raster.
 Result<void> check_kind_of_input(const GivenOptions& given);
 
-/// The options of read_points() by --layer, --z-field, --columns, --class and --returns, and by `as`, those of a
-/// raster. Fails with kUsage for an invalid value.
+/// The options of read_points(), from --layer, --z-field, --columns, --class and --returns, and from `as`, the options
+/// of a raster. Fails with kUsage for an invalid value.
 Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as);
 
-/// The points of all inputs as one set. Without --boundary, warns of boundaries in the inputs. Fails like read_points()
-/// and append_points().
+/// The points of all inputs as one set. Without --boundary, warns of boundaries in the inputs. Fails if read_points()
+/// or append_points() fails.
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options);
 
 /// --duplicates. Fails with kUsage.

@@ -21,7 +21,7 @@ struct RegionFile {
 
 /// Parses FILE[:LAYER]=M. Fails with kUsage.
 Result<RegionFile> parse_region(const std::string& text);
-/// Like parse_region(), with M in the unit of the heights. Fails and warns as settle_goal() does.
+/// Like parse_region(), with M in the unit of the heights. Fails and warns like settle_goal().
 Result<RegionFile> settle_region(const std::string& text, const RasterInfo& heights,
                                  std::vector<std::string>& warnings);
 /// The falloff; 0: none. In metres if the unit of x and y has a known length (`has_metres`), else in that unit. kUsage

@@ -18,8 +18,7 @@ struct GivenSurface {
   std::string name() const;
 };
 
-/// The surface before and the one after. kUsage unless there are two, for two levels, and for a level that is no
-/// number.
+/// The surfaces before and after. kUsage unless there are two, if both are levels, or if a level is no number.
 Result<std::array<GivenSurface, 2>> parse_surfaces(const GivenOptions& given);
 
 }  // namespace scarp::cli

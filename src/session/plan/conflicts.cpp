@@ -24,7 +24,7 @@ Fields to_fields(std::initializer_list<std::pair<Field, bool>> settings) {
   return fields;
 }
 
-/// The settings in the options, without those in files, such as whether a script inserts or ignores samples.
+/// The settings in the options, without settings in files, such as whether a script inserts or ignores samples.
 Fields fields_given(const GivenOptions& given, const SimplifyPlan& plan) {
   const bool is_split = plan.solid && plan.solid->is_split();
   return fields_of(HeightField(), plan.simplify) |

@@ -1,4 +1,4 @@
-// Checks output files before the work, so that a missing folder is not found after an hour.
+// Checks output files before the work, so that a missing folder is not found only after an hour.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct PlannedOutput {
 /// without `overwrite`, and none is an input or another output.
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite);
-/// Fails for a picture or raster, unless it is a device, without an ending that its row requires.
+/// Fails for a picture or raster without an ending that its row requires, unless it is a device.
 Result<void> check_ending(const OptionRow& row, const PlannedOutput& output);
 
 }  // namespace scarp::cli

@@ -13,9 +13,9 @@ struct ProjectionFile {
   std::string text;
 };
 
-/// Files for the mesh, or each level, with x and y in `crs`. Empty if none is needed: format or mesh have no CRS, or
-/// the mesh file holds it. Fails with kOutput for an existing file, unless --overwrite is given and the file belongs to
-/// no other files of that name.
+/// Files for the mesh, or each level, with x and y in `crs`. Empty if none is needed: the format or the mesh has no
+/// CRS, or the mesh file holds it. Fails with kOutput for an existing file, unless --overwrite is given and the file
+/// belongs to no other files of that name.
 Result<std::vector<ProjectionFile>> plan_projection_files(const SimplifyPlan& plan, const std::string& crs);
 
 }  // namespace scarp::cli

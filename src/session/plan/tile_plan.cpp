@@ -15,7 +15,7 @@ namespace {
 
 using enum OptionId;
 
-/// Warns of missing samples within land that is far from the background's height.
+/// Warns if the land around missing samples is far from the background's height.
 std::vector<std::string> warn_of_walls(const GlobeRaster& raster, const PyramidPlan& plan) {
   const VoidCount voids = raster.voids();
   const double background = plan.background, wall = std::max(voids.least - background, background - voids.most);

@@ -1,4 +1,4 @@
-// From options of tiles to a job: opens rasters and plans the pyramid.
+// Turns options of tiles into a job: opens rasters and plans the pyramid.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,14 @@ struct OpenedJob {
   std::vector<std::string> warnings = {};  ///< about lines
 };
 
-/// Opens the job's rasters. Fails like check_rasters() and GlobeRaster::open().
+/// Opens the job's rasters. Fails if check_rasters() or GlobeRaster::open() fails.
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
 /// Opens the rasters and plans the settings that the options name. `memory`: bytes for the raster; 0: unlimited. Fails
-/// for invalid options, and like GlobeRaster::open() and plan_pyramid().
+/// for invalid options, and if GlobeRaster::open() or plan_pyramid() fails.
 Result<OpenedJob> open_tiles(const GivenOptions& given, const ProgressCallback& progress, std::uint64_t memory = 0);
-/// Opens rasters that follow those of an earlier plan, with its settings. Fails like follow_job() and open_tiles().
+/// Opens the rasters of a follow-up plan, with the settings of the earlier plan. Fails if follow_job() or open_tiles()
+/// fails.
 Result<OpenedJob> follow_tiles(const GivenOptions& given, const TileJob& earlier, const ProgressCallback& progress);
 
 }  // namespace scarp::cli

@@ -10,10 +10,10 @@
 
 namespace scarp::cli {
 
-/// Most bytes of a level's tiles: a larger page opens too slowly.
+/// Maximum bytes of a level's tiles: a larger page opens too slowly.
 inline constexpr std::uint64_t kMostTileBytes = 8'000'000;
 
-/// A mesh for each level of the set `path`. Fails like encode_glb().
+/// A mesh for each level of the set `path`. Fails if encode_glb() fails.
 Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels);
 
 }  // namespace scarp::cli

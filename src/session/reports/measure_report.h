@@ -45,7 +45,7 @@ struct Judged {
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };
 
-/// Sets `broken` by the bounds.
+/// Checks the bounds and sets `broken`.
 void decide(Judged& judged);
 
 /// The JSON of --json.

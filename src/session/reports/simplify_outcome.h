@@ -45,7 +45,7 @@ struct Outcome : SimplifyRun {
 struct GoalError {
   double value = 0;         ///< without the rounding of samples, for comparison with the bound
   const char* name = "";    ///< "max error", "weighted max error", …
-  bool is_rounded = false;  ///< positions are rounded to float32, and the error may exceed the bound by that
+  bool is_rounded = false;  ///< positions are rounded to float32, and the error may exceed the bound by the rounding
 };
 GoalError find_goal_error(const Outcome& outcome);
 

@@ -169,7 +169,7 @@ namespace {
 
 using enum OptionId;
 
-/// Words on STL, which holds offsets from an origin that only Scarp reads.
+/// A note about STL, which holds offsets from an origin that only Scarp reads.
 std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   const std::array<double, 3>& o = mesh.origin;
   if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0))

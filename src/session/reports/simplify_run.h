@@ -42,7 +42,7 @@ struct SimplifyRun {
   std::optional<Print> print;                             ///< with --solid
   std::vector<ProjectionFile> projections;                ///< next to OUTPUT or each level
   std::vector<std::string> warnings;
-  bool was_ended = false;  ///< by a waiting caller, before its end
+  bool was_ended = false;  ///< a waiting caller ended the run early
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
 

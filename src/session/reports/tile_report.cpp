@@ -208,7 +208,7 @@ constexpr std::string_view kCliffs =
     "next to a cliff, the raster's own edge above the background included, positions in 32767ths of a tile are too "
     "coarse";
 
-/// For a plan that binds samples: the errors at nodes and at samples on the finest level with such tiles, and the
+/// For a plan that binds samples: the errors at nodes and at samples on the finest level above its max error, and the
 /// remedy.
 std::string explain_over(const PyramidPlan& plan, const PyramidReport& report) {
   std::size_t z = report.levels.size() - 1;

@@ -13,8 +13,8 @@ namespace scarp::cli {
 std::string describe_rounding(double sample_rounding);
 
 /// Explains why the mesh does not satisfy `bound`: the largest error and its place, the number of uncovered samples and
-/// the first one, or a topological fault. The bound applies to the values in the file, up to `sample_rounding` away
-/// from the judged float32 samples. Nothing if the mesh satisfies it.
+/// the first one, or a topological fault. The bound applies to the values in the file, which differ by up to
+/// `sample_rounding` from the judged float32 samples. Nothing if the mesh satisfies it.
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
                                                const HeightRange& heights);
 

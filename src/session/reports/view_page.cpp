@@ -19,7 +19,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Most samples: with more, a page opens too slowly.
+/// Maximum number of samples: with more, a page opens too slowly.
 constexpr std::uint64_t kMostSamples = 1 << 24;
 constexpr std::int16_t kVoid = std::numeric_limits<std::int16_t>::min();
 

@@ -102,8 +102,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp serve world.mbtiles --host 0.0.0.0             to other machines\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
-     "Facts are printed at once. Suggested errors follow. The engine finds them on the whole raster up to\n"
-     "2 million samples, and estimates them on windows of a larger raster.\n"
+     "Facts are printed at once. Suggested errors follow. The engine finds them on a whole raster of up\n"
+     "to 2 million samples, and estimates them on windows of a larger raster.\n"
      "Examples:\n"
      "  scarp info dem.tif\n"
      "  scarp info huge.tif --no-suggest\n"

@@ -49,7 +49,7 @@ std::vector<std::string> words_of(Field field) {
 }
 
 std::vector<std::string> words_of(Fields fields) {
-  // These variants have no option.
+  // These variants have no option of their own.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::vector<std::string> words;
@@ -72,7 +72,7 @@ bool is_of_tiles(const ConflictRule& rule) {
 nlohmann::ordered_json describe_conflicts() {
   auto rows = nlohmann::ordered_json::array();
   for (const ConflictRule& rule : conflict_rules()) {
-    // The program treats weights and tolerances of streamed samples like these.
+    // The program streams the weights and tolerances of streamed samples, so these conflicts cannot occur.
     const bool is_of_source = rule.one.has(Field::kSource);
     const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
     if (other.empty()) continue;

@@ -198,7 +198,7 @@ std::string program_help() {
 std::string command_help(const CommandRow& command, bool all) {
   const std::string head = fmt::format("{}.\n\nUsage: scarp {} {}\n", command.summary, command.name, command.usage);
   std::vector<const OptionRow*> rows = rows_of(command.command);
-  if (command.command == kClassic)  // the notes refer to simplify for the others
+  if (command.command == kClassic)  // the notes refer to simplify for the other options
     std::erase_if(rows, [](const OptionRow* row) {
       return row->group != OptionGroup::kStrategies && row->group != OptionGroup::kArguments;
     });

@@ -14,8 +14,8 @@ namespace scarp::cli {
 
 /// The program's help: its commands, and three to try.
 std::string program_help();
-/// A command's help, with lines of at most 100 characters. If the options would not fit a screen, only the most used
-/// ones are listed without `all`, one line each.
+/// A command's help, with lines of at most 100 characters. If the options do not fit a screen and `all` is false, only
+/// the most used ones are listed, one line each.
 std::string command_help(const CommandRow& command, bool all);
 /// The tables of options (of one command; null: all) and mesh formats as JSON. Keys are stable.
 std::string help_json(const CommandRow* command);

@@ -24,9 +24,9 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; - is standard input. Several rasters, or "
-             "a folder, form one mosaic. With --image, any image. Scattered points by name or with --points; several "
-             "files become one set.",
+     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; '-' is standard input. Several rasters, "
+             "or a folder, form one mosaic. With --image, any image. Scattered points are recognised by name, or with "
+             "--points; several files become one set.",
      .brief = "Raster of heights, several for a mosaic, or scattered points"},
     {.id = kPlan,
      .name = "PLAN",
@@ -43,8 +43,8 @@ const OptionRow kFileRows[] = {
      .type = kOutputFile,
      .choices = output_endings(),
      .is_required = true,
-     .help = keep(fmt::format("Mesh to write: {}. .svg and .eps hold its edges, .tif and .pgm the approximation. With "
-                              "--of, - is standard output.",
+     .help = keep(fmt::format("Mesh to write: {}. .svg and .eps store its edges; .tif and .pgm store the "
+                              "approximation. With --of, OUTPUT may be '-', for standard output.",
                               list_mesh_endings([](const MeshFormatTraits&) { return true; }))),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .gpkg .3mf .svg .tif ..."},
     {.id = kRaster,
@@ -54,9 +54,9 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; - is standard input. Several rasters, or "
-             "a folder, form one mosaic. With --image, any image. Scattered points by name or with --points. With "
-             "--volume, a mesh or level=H.",
+     .help = "Raster of heights: PGM, STM, or a file or URL that GDAL opens; '-' is standard input. Several rasters, "
+             "or a folder, form one mosaic. With --image, any image. Scattered points are recognised by name, or with "
+             "--points. With --volume, a mesh or level=H.",
      .brief = "Raster of heights, or points, that the mesh was made from"},
     {.id = kRaster,
      .name = "FILE",
@@ -65,8 +65,7 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "One or several rasters of heights, as for simplify; scattered points; or a mesh (.glb, .obj, .ply, .stl "
-             "...).",
+     .help = "One or several rasters of heights, as for simplify; scattered points; or a mesh (.glb, .obj, .ply ...).",
      .brief = "Raster of heights, scattered points, or a mesh"},
     {.id = kMesh,
      .name = "MESH",
@@ -75,8 +74,8 @@ const OptionRow kFileRows[] = {
      .type = kInputFile,
      .choices = mesh_endings(),
      .is_required = true,
-     .help = keep(
-         fmt::format("Mesh to judge, recognised by content: {}. With --volume, also level=H.", list_readable_meshes())),
+     .help = keep(fmt::format("Mesh to judge, recognised by content: {}. With --volume, level=H is also allowed.",
+                              list_readable_meshes())),
      .brief = ".glb .obj .ply .stl .2dm .vtu .xml .dxf .3mf ..."},
     {.id = kMesh,
      .name = "MESH",
@@ -196,7 +195,8 @@ const OptionRow kFileRows[] = {
      .value = "R",
      .unit = "units of the raster's CRS",
      .above = 0,
-     .help = "Read means of k x k cells, for the largest k with blocks at most R wide. Errors refer to these means."},
+     .help = "Average blocks of k x k cells on reading. k is the largest number for which a block is at most R wide. "
+             "Errors refer to the averages."},
     {.id = kDecode,
      .name = "--decode",
      .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,
@@ -216,7 +216,7 @@ const OptionRow kFileRows[] = {
      .range = "not 0",
      .is_for_points = true,
      .help = "Factor for the heights, such as 0.1 for decimetres or -1 for depths. Other options use the scaled unit "
-             "for errors and heights; --nodata is the value in the file."},
+             "for errors and heights; --nodata is the unscaled value in the file."},
     {.id = kZScale,
      .name = "--z-scale",
      .commands = kMeasure | kView,
@@ -277,8 +277,8 @@ const OptionRow kFileRows[] = {
      .by_default = "1",
      .above = 0,
      .is_for_points = true,
-     .help = "Cell width of a raster without georeference, such as a heightmap for a game; for other rasters, only "
-             "with --crs grid. For points: cell width of OUTPUT if it is a raster."},
+     .help = "Cell width of a raster without georeference, such as a heightmap for a game. Other rasters accept it "
+             "only with --crs grid. For points: cell width of OUTPUT if it is a raster."},
     {.id = kCellSize,
      .name = "--cell-size",
      .commands = kTile | kTilePlan | kTileCheck,
@@ -331,8 +331,8 @@ const OptionRow kFileRows[] = {
                                     list_frame<DefaultFrame::kLocal>(), list_frame<DefaultFrame::kSource>())),
      .is_for_points = true,
      .help = "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
-             "columns and rows. enu: metres east, north and up from the centre, on the curved earth. Or any CRS, such "
-             "as EPSG:32611, which is slower to judge. EPSG:4978 is earth-centred.",
+             "columns and rows. enu: metres east, north and up from the centre, on the curved earth. Any other CRS, "
+             "such as EPSG:32611, is slower to judge. EPSG:4978 is earth-centred.",
      .brief = "Coordinates: source, local, grid or a CRS such as EPSG:32611"},
     {.id = kUp,
      .name = "--up",
@@ -369,7 +369,7 @@ const OptionRow kFileRows[] = {
      .by_default = "by OUTPUT's extension",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = keep(fmt::format("Format of OUTPUT: {}. svg and eps hold the edges, dem the approximation as a raster.",
+     .help = keep(fmt::format("Format of OUTPUT: {}. svg, eps: the edges. dem: the approximation as a raster.",
                               list_output_formats()))},
     {.id = kOf,
      .name = "--of",
@@ -537,8 +537,8 @@ const OptionRow kFileRows[] = {
      .choices = ".geojson .json",
      .is_of_mesh = false,
      .is_for_points = true,
-     .help = "Also write the contour lines of the mesh as GeoJSON, in the mesh's coordinates. They match the raster to "
-             "within the max error."},
+     .help = "Also write the contour lines of the mesh as GeoJSON, in the mesh's coordinates. Their heights match the "
+             "raster to within the max error."},
     {.id = kContourInterval,
      .name = "--contour-interval",
      .part_of = kContoursOut,
@@ -569,7 +569,7 @@ const OptionRow kFileRows[] = {
      .commands = kView,
      .group = OptionGroup::kOutput,
      .type = kFlag,
-     .help = "Open the page in a browser, by xdg-open.",
+     .help = "Open the page in a browser, with xdg-open.",
      .brief = "Open the page in a browser"},
     {.id = kReport,
      .name = "--report",

@@ -53,8 +53,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "Quantity to minimise with -t or -p: the max error or the RMSE. With rms, errors stay within -e, or "
-             "without -e within the max error of --effort fast. Needs --effort normal or more."},
+     .help = "Quantity to minimise with -t or -p: the max error or the RMSE. With rms, errors stay within -e or, "
+             "without -e, within the max error of --effort fast. Needs --effort normal or more."},
 
     {.id = kFailAbove,
      .name = "--fail-above",
@@ -66,8 +66,8 @@ constexpr OptionRow kGoalRows[] = {
      .least = 0,
      .is_for_points = true,
      .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and P% "
-             "are like M and P% of simplify's --max-error. Errors are in units of the heights. --mask weights them; "
-             "--texture and --image combine several by --norm.",
+             "are like M and P% of simplify's --max-error. Errors are in units of the heights. --mask weights errors; "
+             "--texture and --image combine those of several bands by --norm.",
      .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
     {.id = kVolume,
      .name = "--volume",
@@ -75,7 +75,8 @@ constexpr OptionRow kGoalRows[] = {
      .group = OptionGroup::kVerdict,
      .type = kFlag,
      .help = "Measure the volumes between two surfaces, the ground before and after: two meshes, or a mesh and "
-             "level=H. Cut is the volume where the second surface is below the first; fill is that where it is above.",
+             "level=H. Cut is the volume where the second surface is below the first; fill is the volume where it is "
+             "above.",
      .brief = "Cut and fill from the first mesh to the second, or to level=H"},
 
     {.id = kEffort,
@@ -85,10 +86,10 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .value = "LEVEL",
      .choices = "fast normal high max",
-     .by_default = "normal; fast with the 1995 paper's strategies, or too little --memory",
+     .by_default = "normal; fast with the 1995 paper's strategies, or with too little --memory",
      .is_for_points = true,
      .help = "Work to spend on fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the triangles "
-             "of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, 9.6 and 50 "
+             "of fast. high: also move vertices; 0.30. max: search longer; 0.28. CPU time is 0.4, 1.4, 9.6 and 50 "
              "times that of the 1995 paper's algorithm. With -t or -p, the work reduces the error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kMinShape,
@@ -115,7 +116,7 @@ constexpr OptionRow kGoalRows[] = {
      .by_default = "free where possible",
      .is_for_points = true,
      .help = "Positions of vertices with --effort high and max. free: also between samples. samples: only at samples; "
-             "with high 0.41 of the triangles of fast."},
+             "with --effort high this needs 0.41 times the triangles of --effort fast."},
     {.id = kTimeLimit,
      .name = "--time-limit",
      .part_of = kEffort,

@@ -36,7 +36,7 @@ const OptionRow kLineRows[] = {
      .value = "FIELD",
      .by_default = "the third coordinate",
      .is_for_points = true,
-     .help = "Attribute that holds the height of a line, such as a contour's."},
+     .help = "Attribute that holds the heights of lines such as contours."},
     {.id = kSoftBreaklines,
      .name = "--soft-breaklines",
      .part_of = kBreaklines,
@@ -57,7 +57,7 @@ const OptionRow kLineRows[] = {
      .choices = "error first mean highest",
      .by_default = "error",
      .help = "Rule for places where lines of different heights meet. error: refuse the lines. The others use the "
-             "height of the first line, the mean height or the highest."},
+             "height of the first line, the mean height or the largest height."},
     {.id = kCutline,
      .name = "--cutline",
      .commands = kSimplify,
@@ -221,7 +221,7 @@ const OptionRow kLineRows[] = {
      .value = "N",
      .unit = "samples",
      .least = 3,
-     .help = "Keep level areas (at least N connected samples) flat. Their shores become edges of the mesh."},
+     .help = "Keep level areas of at least N connected samples flat. Their shores become edges of the mesh."},
     {.id = kRivers,
      .name = "--rivers",
      .commands = kSimplify,
@@ -253,7 +253,7 @@ const OptionRow kLineRows[] = {
                   "mostly are",
      .is_for_points = true,
      .help = "Smallest allowed angle of a triangle, in degrees, seen from above. The error bound, lines and outline "
-             "have priority. A warning counts smaller angles that they force."},
+             "have priority. A warning counts the smaller angles that these force."},
     {.id = kMaxEdge,
      .name = "--max-edge",
      .commands = kSimplify,
@@ -275,7 +275,7 @@ const OptionRow kLineRows[] = {
      .range = "above 0, at most half of --max-edge",
      .is_for_points = true,
      .help = "Shortest allowed edge, seen from above, in the mesh's units of x and y. All other goals have priority. A "
-             "warning counts shorter edges that they need."},
+             "warning counts the shorter edges that these need."},
     {.id = kGrade,
      .name = "--grade",
      .commands = kSimplify,
@@ -308,7 +308,7 @@ const OptionRow kLineRows[] = {
      .value = "KEY=VALUE,...",
      .choices = "size= base= thickness= exaggerate=",
      .help = "Close the mesh into a solid for printing, as .stl, .3mf, .obj or .ply. size=120mm: longest side. base=H: "
-             "base height in the raster's units. thickness=3mm: distance of the base below the lowest vertex. "
+             "base height in the raster's units. thickness=3mm: distance from the base to the lowest vertex. "
              "exaggerate=F: height factor.",
      .brief = "A closed solid for printing: size=120mm, exaggerate=2"},
     {.id = kSplit,

@@ -38,8 +38,8 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "voids fill background",
      .by_default = "voids",
      .help = "Treatment of missing samples. voids: interpolate enclosed voids of at most 100 samples a side; other "
-             "missing samples have the height of --background. fill: interpolate all missing samples within a distance "
-             "of a height. background: interpolate none.",
+             "missing samples have the height of --background. fill: interpolate all missing samples up to a given "
+             "distance from a height. background: interpolate none.",
      .brief = "Treatment of missing samples: voids, fill or background"},
     {.id = kFillDistance,
      .name = "--fill-distance",
@@ -93,7 +93,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "FILE",
      .is_for_points = true,
      .help = "Raster of tolerances, one for each sample, in the units of the heights. A point has the tolerance of its "
-             "pixel. A pixel without value sets no bound. -e is optional, except for points."},
+             "pixel. A pixel without a value sets no bound. -e is optional, except for points."},
     {.id = kTolerance,
      .name = "--tolerance",
      .commands = kMeasure,
@@ -137,7 +137,7 @@ constexpr OptionRow kSampleRows[] = {
      .by_default = "0",
      .least = 0,
      .is_for_points = true,
-     .help = "Distance over which the bound changes from that of each region to that of all samples, such as 500 or "
+     .help = "Distance over which the bound changes from a region's bound to the bound of all samples, such as 500 or "
              "500m. D is in metres if the CRS has a known unit, else in units of the CRS."},
     {.id = kScript,
      .name = "--script",
@@ -145,15 +145,15 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Text file with rules for single samples. A line 's COL ROW' forces a vertex; a line 'i COL ROW' or 'u "
-             "COL ROW' ignores a sample."},
+     .help = "Text file with rules for single samples. A line 's COL ROW' makes the sample a vertex; a line 'i COL "
+             "ROW' or 'u COL ROW' ignores a sample."},
     {.id = kScript,
      .name = "--script",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
      .type = kInputFile,
      .value = "FILE",
-     .help = "Script that simplify used. Samples in its lines 'i COL ROW' and 'u COL ROW' have no bound."},
+     .help = "Script that simplify used. Samples named in its lines 'i COL ROW' and 'u COL ROW' have no bound."},
 
     {.id = kTexture,
      .name = "--texture",
@@ -211,7 +211,7 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kPoints,
      .type = kFlag,
      .is_for_points = true,
-     .help = "The input is points or lines, whatever its extension."},
+     .help = "Read the input as points or lines, whatever its extension."},
     {.id = kDuplicates,
      .name = "--duplicates",
      .commands = kSimplify,
@@ -285,7 +285,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "NAMES",
      .by_default = "from the header, else guessed from the values",
      .is_for_points = true,
-     .help = "Columns of a text file, such as number,northing,easting,height,code, or pnezd. - omits a column."},
+     .help = "Columns of a text file, such as number,northing,easting,height,code, or pnezd. '-' omits a column."},
     {.id = kClass,
      .name = "--class",
      .commands = kSimplify | kInfo,
@@ -294,7 +294,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "LIST",
      .by_default = "all",
      .is_for_points = true,
-     .help = "Classes of a LAS file's points to use, by name or number, such as ground,water or 2,9; or classes to "
+     .help = "Point classes of a LAS file to use, by name or number, such as ground,water or 2,9; or classes to "
              "exclude, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
     {.id = kClass,
      .name = "--class",
@@ -304,7 +304,7 @@ constexpr OptionRow kSampleRows[] = {
      .value = "LIST",
      .by_default = "from the mesh file, else all",
      .is_for_points = true,
-     .help = "Classes of a LAS file's points to use, by name or number, such as ground,water or 2,9; or classes to "
+     .help = "Point classes of a LAS file to use, by name or number, such as ground,water or 2,9; or classes to "
              "exclude, as in no-noise,no-overlap. withheld adds points that are marked as deleted."},
     {.id = kReturns,
      .name = "--returns",
@@ -317,7 +317,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "all first last only",
      .by_default = "all",
      .is_for_points = true,
-     .help = "Points of a LAS file to use, by their return of a pulse. only: points of pulses with one return."},
+     .help = "Laser returns to use from a LAS file. only: points of pulses with one return."},
     {.id = kReturns,
      .name = "--returns",
      .part_of = kClass,
@@ -329,7 +329,7 @@ constexpr OptionRow kSampleRows[] = {
      .choices = "all first last only",
      .by_default = "from the mesh file, else all",
      .is_for_points = true,
-     .help = "Points of a LAS file to use, by their return of a pulse. only: points of pulses with one return."},
+     .help = "Laser returns to use from a LAS file. only: points of pulses with one return."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kSimplify,
@@ -340,8 +340,8 @@ constexpr OptionRow kSampleRows[] = {
      .is_for_points = true,
      .help =
          "Boundary of the mesh: the convex hull of the points, a concave one, or the polygons of a vector file. "
-         "concave removes triangles with a boundary edge longer than LENGTH, in the unit of x and y, while the mesh "
-         "stays in one piece."},
+         "concave removes triangles with a boundary edge longer than LENGTH, in the unit of x and y, as long as the "
+         "mesh stays in one piece."},
     {.id = kBoundary,
      .name = "--boundary",
      .commands = kMeasure,

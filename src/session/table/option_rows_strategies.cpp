@@ -48,8 +48,8 @@ constexpr OptionRow kStrategyRows[] = {
      .choices = "brute local heap",
      .by_default = "heap",
      .is_of_mesh = false,
-     .help =
-         "Search for the next sample of the greedy order, by the paper's algorithm I, II or III. The mesh is the same.",
+     .help = "Method to find the next sample of the greedy order: the paper's algorithm I, II or III. The mesh is the "
+             "same.",
      .brief = "The paper's algorithms I, II and III of the greedy order"},
     {.id = kBatch,
      .name = "--batch",

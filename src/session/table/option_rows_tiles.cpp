@@ -147,7 +147,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "N",
      .choices = "16 32 64 128 256",
      .by_default = "128",
-     .help = "Cells between nodes along a side of a tile of the finest level."},
+     .help = "Number of cells along each side of a tile of the finest level."},
     {.id = kEffort,
      .name = "--effort",
      .commands = kTile | kTilePlan,
@@ -205,8 +205,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "V",
      .unit = "metres above the ellipsoid",
      .by_default = "0",
-     .help = "Height above the ellipsoid of nodata and of the globe around the raster, whatever --vertical is. With a "
-             "local grid: only of nodata; the default is then the raster's lowest height.",
+     .help = "Height of nodata and of the globe around the raster, above the ellipsoid for any --vertical. A local "
+             "grid uses it only for nodata; its default is then the raster's lowest height.",
      .brief = "Height of nodata and of the globe around, above the ellipsoid"},
     {.id = kPlan,
      .name = "PLAN",
@@ -338,7 +338,7 @@ constexpr OptionRow kTileRows[] = {
      .least = 0,
      .most = 65535,
      .limit_why = "ports go from 0, any that is free, to 65535",
-     .help = "Port to listen on. 0: any free one."},
+     .help = "Port to listen on. 0: any free port."},
     {.id = kHost,
      .name = "--host",
      .commands = kServe,
@@ -347,7 +347,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "ADDRESS",
      .choices = "127.0.0.1 0.0.0.0 ::1 ::",
      .by_default = "127.0.0.1",
-     .help = "Address to listen on. The default answers only this machine; 0.0.0.0 also answers others."},
+     .help = "Address to listen on. The default accepts requests only from this machine; 0.0.0.0 also from others."},
 };
 
 }  // namespace

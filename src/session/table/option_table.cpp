@@ -132,7 +132,7 @@ const std::string& name_of(OptionId id) {
   constexpr auto kCount = static_cast<std::size_t>(OptionId::kNone);
   static const std::array<std::string, kCount> kNames = [] {
     std::array<std::string, kCount> names;
-    for (const bool are_parts : {false, true}) {  // the name of a part contains its option's
+    for (const bool are_parts : {false, true}) {  // the name of a part contains its option's name
       for (const OptionRow* row : all_rows()) {
         std::string& name = names[static_cast<std::size_t>(row->id)];
         if ((row->part_of != OptionId::kNone) != are_parts || !name.empty()) continue;

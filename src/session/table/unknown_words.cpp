@@ -20,7 +20,7 @@ namespace {
 
 struct Foreign {
   const char* words;   ///< words of other programs, without dashes, separated by blanks
-  OptionId meant;      ///< Scarp's option; kNone if it has none
+  OptionId meant;      ///< Scarp's option; kNone if Scarp has none
   const char* advice;  ///< instead of "did you mean"; may be empty
 };
 
@@ -69,7 +69,7 @@ constexpr Foreign kForeign[] = {
     {"optimize quality level compression-level", OptionId::kEffort, ""},
 };
 
-/// The word in lower case, except single letters, with dashes for underscores, without leading dashes and value.
+/// The word without leading dashes and value, with dashes for underscores, in lower case unless it is a single letter.
 std::string bare(const std::string& word) {
   std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
   name.resize(std::min(name.find('='), name.size()));

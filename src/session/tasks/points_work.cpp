@@ -86,7 +86,7 @@ std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
   return std::array{affine[0].get<double>(), affine[3].get<double>()};
 }
 
-/// Options for reading the points of such a mesh, unless `given` sets them.
+/// Options for reading the points, by the mesh's metadata, unless `given` sets them.
 Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh, const std::string& path) {
   const auto find = [&](const char* key) {
     const auto entry = mesh.metadata.find(key);
@@ -108,7 +108,7 @@ Result<ReadOptions> remember_reading(const GivenOptions& given, const Mesh& mesh
 }
 
 /// Moves a mesh from a local frame back to the points: by its metadata or, in a format that cannot hold metadata, if
-/// they would not meet otherwise.
+/// mesh and points would not meet otherwise.
 void put_back(const PointSet& points, Mesh& mesh) {
   if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
   if (points.is_local || mesh.metadata.contains("frame")) return;

@@ -12,7 +12,7 @@ struct Runner {
   ProgressCallback progress;
   /// Slow efforts call it after on_keeping(). True if the present mesh is sufficient. May be empty.
   std::function<bool()> is_enough = {};
-  /// Called once a mesh satisfies the bound. May be empty.
+  /// Called as soon as a mesh satisfies the bound. May be empty.
   std::function<void()> on_keeping = {};
   /// May change the read options before inputs are read. May be empty.
   std::function<void(ReadOptions&)> on_plan = {};

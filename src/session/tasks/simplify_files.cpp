@@ -167,7 +167,6 @@ bool reads_samples(const SimplifyPlan& plan) {
   return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
 }
 
-/// Encodes OUTPUT.
 Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
   const Mesh& mesh = outcome.simplified.mesh;
   const bool is_dem = plan.format.kind == OutputKind::kDem;

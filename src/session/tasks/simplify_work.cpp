@@ -163,7 +163,7 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
-/// Records the time of a judgement in addition to simplify()'s own proof.
+/// Records the time of a judgement that follows simplify()'s own proof.
 void add_judging(Clock::time_point start, Outcome& outcome) {
   const double seconds = seconds_since(start);
   outcome.simplified.passes.push_back({"judge", seconds});
@@ -240,7 +240,7 @@ Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan
   return {};
 }
 
-/// True for slow efforts, which always have a mesh that keeps the bound.
+/// True for slow efforts, which at any time have a mesh that satisfies the bound.
 bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
   const bool is_long = options.quality.effort == Effort::kHigh || options.quality.effort == Effort::kMax;
   return is_long && !options.goals.max_triangles && !options.goals.max_vertices && options.run.memory.limit == 0;

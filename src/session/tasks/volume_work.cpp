@@ -24,7 +24,7 @@ Result<Volumes> measure_between(const std::array<Surface, 2>& surfaces, const Ru
   return volumes.reversed();
 }
 
-/// The library's sentences do not know the files.
+/// The library's messages do not name the files.
 Error with_names(Error error, const std::array<Surface, 2>& surfaces) {
   const auto& [from, to] = surfaces;
   const auto put = [&](std::string_view words, const std::string& name) {

@@ -10,7 +10,7 @@
 
 namespace scarp::cli {
 
-/// 3122, 27,577, 1,234,567: groups of three from five digits on.
+/// 3122, 27,577, 1,234,567: groups of three if there are five digits or more.
 std::string format_count(std::uint64_t n);
 /// Up to six significant digits, no trailing zeros.
 std::string format_number(double value);

@@ -153,7 +153,6 @@ class NodeScan {
   std::vector<std::uint8_t> covered_;
   NodeErrors errors_;
   double largest_ = 0;
-  // State of the current triangle.
   UnitPoint base_;
   double height_ = 0, slope_x_ = 0, slope_y_ = 0, worst_ = 0;
   SampleAt worst_at_{};

@@ -19,7 +19,7 @@ std::int32_t quanta_of(double height, double quantum);
 
 /// The nodes of an edge in order.
 struct EdgeNodes {
-  std::vector<float> heights;   ///< without missing ones
+  std::vector<float> heights;   ///< none is missing
   std::vector<double> places;   ///< along the edge, as clients subdivide it
   std::vector<double> decoded;  ///< places of vertices at the nodes, as clients decode them
 };

@@ -1,8 +1,9 @@
 // Lines that become edges of tile meshes.
 //
-// A level has its own lattice for lines, `cells` steps a tile. A line is simplified to half a step, and its vertices
-// are moved to the nearest lattice nodes. Where it crosses an edge between tiles, the nearest node on the edge becomes
-// a vertex. All this depends only on the line and the level, so both tiles have the same vertex on their edge.
+// A level has its own lattice for lines, with `cells` steps per tile. A line is simplified with a tolerance of half a
+// step, and its vertices are moved to the nearest lattice nodes. Where it crosses an edge between tiles, the nearest
+// node on the edge becomes a vertex. All this depends only on the line and the level, so both tiles have the same
+// vertex on their edge.
 #pragma once
 
 #include <array>
@@ -23,10 +24,9 @@ class TileLines {
  public:
   /// A node of a tile: column and row from its north-western corner.
   using Node = std::array<std::int32_t, 2>;
-  /// The lines through a tile.
   struct Paths {
     std::vector<std::array<Node, 2>> steps;  ///< segments; none of them along an edge of the tile
-    EdgeVertices edges;                      ///< nodes that must be vertices, ascending, each once
+    EdgeVertices edges;                      ///< nodes that must be vertices: ascending, each once
   };
 
   /// Builds the lines of levels 0 … max_zoom. `covered`: the area of lines, with neighbouring tiles down to the block

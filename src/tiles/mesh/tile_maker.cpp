@@ -31,8 +31,8 @@ namespace {
 constexpr int kMeshTrials = 12;
 /// Lattice steps between nodes: vertices of lines lie anywhere, free ones on eighths.
 constexpr std::int32_t kParts = 256;
-/// Share of the max error for edges if samples are bound: only an edge's nodes determine its vertices, but samples are
-/// next to it.
+/// Share of the max error for edges if samples are bounded: only an edge's nodes determine its vertices, but samples
+/// are next to it.
 constexpr double kEdgeShare = 0.25;
 
 class TileMaker {

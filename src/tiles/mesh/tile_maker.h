@@ -32,10 +32,10 @@ Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nod
 /// arguments.
 TileProof proof_at_nodes(const PyramidPlan& plan, const TileNodes& nodes, const NodeSource& source);
 
-/// Makes a mesh of the nodes that satisfies the tile's max error if rounded positions can, else the mesh with the least
-/// error. The tile's max error is that of the level, doubled while the tile exceeds the plan's byte limit and its
-/// interior can have fewer vertices. Without an encoder there is no limit. Nodes without heights become a tile of the
-/// background, judged at fewer nodes; its edges match its neighbours'.
+/// Makes a mesh of the nodes that satisfies the tile's max error if rounded positions allow it, else the mesh with the
+/// least error. The tile's max error is that of the level, doubled while the tile exceeds the plan's byte limit and its
+/// interior can have fewer vertices. Without an encoder there is no limit. If no node has a height, the tile has the
+/// background's height and is judged at fewer nodes; its edges match its neighbours'.
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileProof& proof,
                               const TileEncoder& encode);
 

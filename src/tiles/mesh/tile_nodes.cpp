@@ -26,7 +26,7 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   const auto row_of = [&](std::int64_t row) {
     return nodes.heights_.begin() + static_cast<std::ptrdiff_t>(row - first_row) * window.cols;
   };
-  // Most nodes of a tile larger than the raster are outside the land.
+  // If a tile is larger than the raster, most of its nodes are outside the land.
   const NodeWindow land = source.land(window);
   const std::size_t count = static_cast<std::size_t>(land.cols) * static_cast<std::size_t>(land.rows);
   std::vector<float> part(land.cols < window.cols ? count : 0);

@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// Cells a side of coarse tiles, which form the levels above the blocks: coarse_nodes.h.
+/// Cells on a side of the coarse tiles that form the levels above the blocks (coarse_nodes.h).
 inline constexpr std::int32_t kCoarseCells = 128;
-/// Steps of a side of a tile at or below the plan's block level.
+/// Steps on a side of a tile at or below the plan's block level.
 inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
 
 /// Nodes of a tile: columns from its western side to `right`, rows from `top` to `bottom`.
@@ -23,15 +23,15 @@ struct NodeArea {
 /// The part with land of a tile with `steps` steps: the whole tile, unless a local grid's raster covers only a part.
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps);
 
-/// The nodes of a tile: steps + 1 a side, and `halo` more on each side. The last row repeats beyond the grid's ends.
+/// The nodes of a tile: steps + 1 per side, and `halo` more on each side. The last row repeats beyond the grid's ends.
 class TileNodes {
  public:
   /// `steps`: those of the tile's sides. Nodes without a height have the background's height.
   static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
-  /// Nodes of the same height, with one more around. At least `least_steps` steps; more if necessary to end at the end
-  /// of the land.
+  /// Nodes of the same height, with a halo of one node. At least `least_steps` steps; more if necessary to end at the
+  /// end of the land.
   static TileNodes flat(const PyramidPlan& plan, TileId id, std::int32_t least_steps);
 
   std::int32_t steps() const { return steps_; }
@@ -39,7 +39,7 @@ class TileNodes {
   bool has_heights() const { return has_heights_; }  ///< true if at least one of its own nodes has a height
   /// True if some of its own nodes have the background's height.
   bool has_voids() const { return !voids_.empty(); }
-  /// True if the four of its own nodes around a place had heights. REQUIRES: 0 <= col, row <= steps.
+  /// True if the tile's own four nodes around a place had heights. REQUIRES: 0 <= col, row <= steps.
   bool has_heights_around(double col, double row) const;
   /// True if all nodes, including the halo, have the background's height.
   bool is_flat() const { return is_flat_; }

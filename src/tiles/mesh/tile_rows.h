@@ -1,5 +1,5 @@
 // Latitudes of a tile's rows of nodes as clients place them. Clients divide the degrees between its southern and
-// northern end into 32767 equal steps, or into those of a local grid.
+// northern end into 32767 equal steps, or into the steps of a local grid.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ class TileRows {
   bool are_even() const { return lines_.empty(); }
   /// Steps below the northern end: the row's number if rows are evenly spaced.
   double line(std::int32_t row) const { return are_even() ? row : lines_[static_cast<std::size_t>(row)]; }
-  /// The row at or above a line, except the last row.
+  /// The row at or above a line, but never the last row.
   std::int32_t above(double line) const;
   /// The row nearest to a vertex's v.
   std::int32_t nearest(std::uint16_t v) const;
-  /// v, 0 … grid.side_units() from the southern end, of a place parts / per_step steps north of this end.
+  /// v, 0 … grid.side_units() from the southern end, of a place that is parts / per_step steps north of this end.
   std::uint16_t v_of(std::int64_t parts, std::int32_t per_step = 1) const;
 
  private:

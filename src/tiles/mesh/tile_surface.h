@@ -41,7 +41,7 @@ class TileSurface {
   void judge(const PointRow& row);
 
   double largest_error() const { return worst_; }
-  /// The worst point of each triangle, by triangles.
+  /// The worst point of each triangle, in the order of triangles.
   std::vector<FarPoint> far_points() const;
 
  private:

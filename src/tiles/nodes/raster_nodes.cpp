@@ -134,7 +134,8 @@ class RasterNodes final : public NodeSource {
     int count() const { return static_cast<int>(last - first + 1); }
   };
 
-  /// Column of the raster at a longitude. Of all turns, the column on the raster, or the nearest one after its start.
+  /// Column of the raster at a longitude. Among the columns of all turns: the one on the raster, or the nearest one
+  /// after its start.
   double column_of(double longitude_degrees) const {
     const double cell = place_.affine[1], turn = 360 / std::abs(cell);
     double place = (longitude_degrees - place_.affine[0]) / cell;
@@ -228,7 +229,7 @@ class RasterNodes final : public NodeSource {
             ((y - a[3]) * a[1] - (x - a[0]) * a[4]) / determinant_};
   }
 
-  /// Places of nodes on the raster: exact in degrees, else interpolated between each 16th node of the globe.
+  /// Places of nodes on the raster: exact in degrees, else interpolated between every 16th node of the globe.
   class Anchors {
    public:
     Anchors(const RasterNodes& nodes, const NodeWindow& window) : nodes_(nodes), window_(window) {

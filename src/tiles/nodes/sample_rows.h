@@ -18,7 +18,6 @@ class SampleRows {
   Result<void> visit_placed(const DegreeBox& box, const SampleVisitor& visit) const;
 
  private:
-  /// Columns and rows of the raster.
   struct Window {
     int col = 0, row = 0, cols = 0, rows = 0;
 

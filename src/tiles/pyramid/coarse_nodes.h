@@ -1,13 +1,13 @@
 // Nodes above the blocks: decimated, with error bounds for each cell.
 //
-// A coarse tile holds 128 × 128 cells. Each cell bounds the distance of the source's nodes in it below and above the
-// bilinear surface between its corners. Bilinear means bilinear in degrees, because triangles are planes in degrees for
-// any spacing of rows. Four coarse tiles become one tile of the level above, without every second node. The difference
-// of the bilinear surfaces of both levels is also bilinear, so its extremes are at corners, and bounds add up. If the
-// sum exceeds the range of heights in the cell, the range is used.
+// A coarse tile holds 128 × 128 cells. Each cell stores bounds on how far the source's nodes in it lie below and above
+// the bilinear surface between its corners. Bilinear means bilinear in degrees, because triangles are planes in degrees
+// for any spacing of rows. Four coarse tiles become one tile of the level above, which omits every second node. The
+// difference of the bilinear surfaces of both levels is also bilinear, so its extremes are at corners, and the bounds
+// can be added. If the sum exceeds the range of heights in the cell, the range is used.
 //
-// The source's samples lie between the nodes and may exceed the bounds of a cell's nodes. One number bounds the excess
-// over the surface and over the range of heights; a joined cell has the largest number of its parts.
+// The source's samples lie between the nodes and may exceed the bounds of a cell's nodes. One number per cell bounds
+// the excess over both bounds; a joined cell has the largest number of its parts.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSour
   return has;
 }
 
-/// The same only by the tiles' places.
+/// The same, judged only by the tiles' places.
 Flags find_covered(const PyramidPlan& plan, TileId block) {
   const int deeper = plan.max_zoom() - block.z;
   const std::uint32_t side = std::uint32_t{1} << deeper;

@@ -17,7 +17,7 @@ using TileSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 /// True if the source may have a height in the tile, or near enough to affect the tile's normals.
 bool is_covered(const PyramidPlan& plan, TileId id);
 
-/// True if a source requires the tile's level there, or the plan needs the tile as a sibling.
+/// True if a source requires the tile's level at its place, or the plan needs the tile as a sibling.
 bool is_wanted(const PyramidPlan& plan, TileId id);
 
 /// The four tiles of the next level: south-west, south-east, north-west, north-east.

@@ -19,8 +19,8 @@ class TileOutput {
  public:
   TileOutput(const PyramidPlan& plan, TileSink& sink, const Run& run);
 
-  /// Makes the tiles on all threads and passes them to the sink in this order; `make` returns nothing for an unwanted
-  /// tile. Progress: the fraction of these tiles. Fails like `make` and the sink, and with kCancelled.
+  /// Makes the tiles on all threads and passes them to the sink in the given order; `make` returns nothing for an
+  /// unwanted tile. Progress: the fraction of these tiles. Fails like `make` and the sink, and with kCancelled.
   Result<void> make(const std::vector<TileId>& tiles,
                     const std::function<Result<std::optional<KeptTile>>(TileId, const TileEncoder&)>& make);
 

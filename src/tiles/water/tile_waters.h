@@ -47,20 +47,20 @@ struct WaterLines {
 };
 
 /// Computes levels of lakes and profiles of rivers on the plan's finest lattice, like find_lakes() and carve_rivers().
-/// Levels are relative to `zero` (null: the ellipsoid), so water follows the geoid. Profiles are within half of the
-/// finest level's max error of the exact ones. `covered`: the cover of the source. An edge of a ring longer than half a
-/// turn follows the short way. Fails like the source, and with kUsage for a percentile out of range, a polygon around a
-/// pole, and more nodes in a row than lines can count. Cost: reads the nodes along shores and rivers.
+/// Levels are relative to `zero` (null: the ellipsoid), so water follows the geoid. Profiles differ from the exact ones
+/// by at most half of the finest level's max error. `covered`: the cover of the source. A ring's edge that is longer
+/// than half a turn follows the short way. Fails like the source, and with kUsage for a percentile out of range, a
+/// polygon around a pole, and more nodes in a row than lines can count. Cost: reads the nodes along shores and rivers.
 Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& nodes,
                                     const std::shared_ptr<const HeightZero>& zero, const DegreeBox& covered,
                                     const WaterLines& lines);
 
 /// The nodes of `source` with water. Nodes in a lake have its level; their eight neighbours outside lakes lie at least
 /// a centimetre above it. The nodes nearest to a river have its height, except in lakes. Nodes without heights and
-/// poles do not change. Samples between four nodes of one lake have its level; samples between nodes only some of which
-/// have water are omitted. Borrows the source. Reading fails with kUsage for a window of another grid, or with other
-/// nodes than waters.per_turn or a half, a third, … of them. Memory: 12 bytes for each row of a lake's nodes and each
-/// node of a river that was read.
+/// poles do not change. Samples between four nodes of one lake have its level; samples between four nodes of which only
+/// some have water are omitted. Borrows the source. Reading fails with kUsage for a window of another grid, or if its
+/// nodes per turn are not waters.per_turn or a half, a third, … of it. Memory: 12 bytes for each row of a lake's nodes
+/// and each node of a river that was read.
 std::unique_ptr<NodeSource> make_watered_source(const NodeSource& source, std::shared_ptr<const TileWaters> waters,
                                                 std::shared_ptr<const HeightZero> zero);
 
@@ -69,8 +69,8 @@ class WaterMasks {
  public:
   explicit WaterMasks(const TileWaters& waters);
   /// 256 rows of 256 texels from the north, equally spaced in degrees: 255 times the share of 4 × 4 places in a texel
-  /// that lie in a lake. A single byte if all are equal. Masks show the polygons on each level, including lakes without
-  /// a water level. Depends only on the arguments.
+  /// that lie in a lake. A single byte if all texels are equal. Masks show the polygons on each level, including lakes
+  /// without a water level. Depends only on the arguments.
   std::vector<std::uint8_t> draw(TileId id) const;
   /// A hash of the lakes that may reach into the tile or its descendants; 0 if none.
   std::uint64_t hash(TileId id) const;
@@ -84,7 +84,7 @@ class WaterMasks {
   void each_lake(TileId id, const Use& use) const;
 
   const TileWaters* waters_;
-  std::vector<Box> boxes_;  ///< boxes of the lakes
+  std::vector<Box> boxes_;
 };
 
 }  // namespace scarp

@@ -22,8 +22,8 @@ struct NodeBox {
 /// Largest number of nodes in a row that lines can count.
 inline constexpr std::int64_t kMostNodes = (std::int64_t{1} << 22) - 1;
 
-/// The box of nodes around points, with a margin of two nodes, clipped to the source's; nothing if disjoint. `cols` and
-/// `rows` may exceed kMostNodes.
+/// The box of nodes around points, with a margin of two nodes, clipped to the source's box; nothing if the boxes are
+/// disjoint. `cols` and `rows` may exceed kMostNodes.
 class NodesAround {
  public:
   void add(double col, double row);
@@ -35,7 +35,7 @@ class NodesAround {
 
 /// Coordinates are columns and rows of the lattice.
 std::vector<Line> lines_of(const TileLake& lake);
-/// The box of a lake; nothing outside the source, or if the lake has more nodes in a row than lines can count.
+/// The box of a lake; nothing if the lake is outside the source or has more nodes in a row than lines can count.
 std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters);
 
 /// Maps nodes of a box, counted from its first, to columns and rows of the lattice.
@@ -46,7 +46,6 @@ inline std::array<double, 6> affine_of(const NodeBox& box) {
 /// The nodes of a lake. Columns and rows are relative to its box.
 std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
 
-/// A node next to a river.
 struct RiverNode {
   std::int64_t row = 0, col = 0;
   float height = 0;

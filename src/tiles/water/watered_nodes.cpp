@@ -195,7 +195,8 @@ class WateredNodes final : public NodeSource {
     std::vector<std::shared_ptr<const std::vector<RiverNode>>> rivers;
   };
 
-  /// The height of a sample between four nodes: the level of a lake with all four, nothing if only some have water.
+  /// The height of a sample between four nodes: the level of a lake that contains all four; nothing if only some have
+  /// water.
   static float sample_at(const Claims& claims, const std::vector<float>& raised, const NodeWindow& window, double x,
                          double y, float height) {
     const auto before = [](double place, int count) {
