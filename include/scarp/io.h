@@ -164,8 +164,9 @@ struct ReadOptions {
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// Reads the samples next to a part of a raster, for Border::beyond. The part was read by read_height_field() with an
-/// extent (ReadOptions::view). The result holds samples of the surrounding raster or mosaic. Sides at which the raster
-/// ends are unknown; without an extent, all sides are. Nodata is not filled. Fails as read_height_field() does.
+/// extent (ReadOptions::view). The result holds samples of the surrounding raster or mosaic. At sides where the raster
+/// ends, and without an extent at all sides, the samples are unknown. Nodata is not filled. Fails as
+/// read_height_field() does.
 Result<BeyondEdges> read_beyond(const std::string& path, const ReadOptions& options, const RasterInfo& info, int cols,
                                 int rows);
 

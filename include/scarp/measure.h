@@ -74,11 +74,10 @@ struct Measurement {
   std::uint64_t samples = 0;                         ///< valid samples that are covered and judged
   std::uint64_t uncovered = 0;                       ///< valid samples of valid cells that no triangle covers
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< (col, row) of the first of them, row by row; (−1, −1): none
-  std::uint64_t stray = 0;    ///< valid samples outside the domain: in no cell with three valid corners
-  std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
-  HeightRange heights;        ///< range of all valid samples: judged, uncovered, stray and cut off
-  std::uint64_t nodata_cells_covered =
-      0;  ///< nodata cells (or nodata halves of cells) whose centre the mesh covers
+  std::uint64_t stray = 0;                 ///< valid samples outside the domain: in no cell with three valid corners
+  std::uint64_t cut_off = 0;               ///< valid samples beyond MeasureOptions::cutline, not judged
+  HeightRange heights;                     ///< range of all valid samples: judged, uncovered, stray and cut off
+  std::uint64_t nodata_cells_covered = 0;  ///< nodata cells (or nodata halves of cells) whose centre the mesh covers
 
   std::uint64_t over_tolerance = 0;                  ///< covered samples whose error exceeds their tolerance
   double max_error = 0;                              ///< largest |error|

@@ -150,7 +150,7 @@ struct TileGrid {
   /// Latitude of a row of nodes. Rows count from 0, the northern end, to `last_row`, a power of two. Returns the same
   /// bits on every machine.
   double latitude(std::int64_t row, std::int64_t last_row) const;
-  /// Longitude of a column of nodes, −180 … 180, the same bits after each turn.
+  /// Longitude of a column of nodes, from −180 to 180. Columns a whole turn apart give the same bits.
   double longitude(std::int64_t col, std::int64_t per_turn) const {
     if (is_flat()) return static_cast<double>(local.side) * (static_cast<double>(col) / static_cast<double>(per_turn));
     const std::int64_t wrapped = ((col % per_turn) + per_turn) % per_turn;

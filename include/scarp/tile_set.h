@@ -92,9 +92,10 @@ class TileSetReader {
   virtual std::vector<std::string> find_faults() const { return {}; }
 };
 
-/// Opens a set of Scarp or another program, such as a folder of "z/x/y.terrain", compressed or not, even with missing
-/// tiles. Fails with kInput if the path is not a tile set, or the set is damaged or truncated. Checks each length and
-/// offset in it. Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
+/// Opens a tile set made by Scarp or another program, such as a folder of "z/x/y.terrain" files. Tiles may be
+/// compressed or missing. Fails with kInput if the path is not a tile set, or the set is damaged or truncated. Checks
+/// each length and offset in it. Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the
+/// set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
 /// The grid of tiles declared by a set's layer.json or tileset.json; else the geographic one.

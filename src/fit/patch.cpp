@@ -12,6 +12,11 @@ constexpr Patch::Link link_to(Patch::Id f, unsigned edge) { return f << 2 | edge
 
 }  // namespace
 
+Patch::Star::Star() {
+  constexpr std::size_t kUsual = 16;
+  for (std::vector<Id>* ids : {&faces, &ring, &beyond}) ids->reserve(kUsual);
+}
+
 bool Patch::walk(Id f, unsigned corner, Star& star) const {
   star.faces.clear();
   star.ring.clear();

@@ -51,10 +51,7 @@ class Patch {
 
   /// Triangles around a vertex, and links beyond them.
   struct Star {
-    Star() {
-      constexpr std::size_t kUsual = 16;
-      for (std::vector<Id>* ids : {&faces, &ring, &beyond}) ids->reserve(kUsual);
-    }
+    Star();
 
     bool closed = true;
     std::vector<Id> faces;     ///< face i is (v, ring i, ring i + 1)

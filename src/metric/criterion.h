@@ -62,7 +62,7 @@ class Criterion {
   bool importance_is_error() const { return importance_is_error_; }
   /// Order of insertion for one pass, without unbounded samples; empty if not used.
   std::vector<Point> ranking() const;
-  /// Samples without a bound, except those of source_bounds(), which the proof counts.
+  /// Number of samples without a bound. Those of source_bounds() are not included: the proof counts them.
   std::uint64_t ignored() const { return ignored_; }
   /// The channels of the field.
   const std::vector<Channel>& channels() const { return field_->channels; }

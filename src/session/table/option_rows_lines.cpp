@@ -253,7 +253,7 @@ const OptionRow kLineRows[] = {
                   "mostly are",
      .is_for_points = true,
      .help = "Smallest allowed angle of a triangle, in degrees, seen from above. The error bound, lines and outline "
-             "have priority. A warning counts the smaller angles that these force."},
+             "have priority. If they force angles below DEG, a warning counts these."},
     {.id = kMaxEdge,
      .name = "--max-edge",
      .commands = kSimplify,

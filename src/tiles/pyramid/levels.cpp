@@ -155,7 +155,7 @@ SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid)
   return all;
 }
 
-/// The intersection of two boxes, or the larger of two intersections. A source that spans the whole turn covers any
+/// The intersection of two boxes; if they meet twice around the globe, the larger part. A source that spans the whole turn covers any
 /// box.
 std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
   std::optional<DegreeBox> best;
