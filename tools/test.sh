@@ -16,7 +16,7 @@
 #
 # A failed stage does not skip the next. Random seeds are fixed: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED;
 # tools/soak.sh uses fresh ones. The CPU seconds of each stage and script go to BUILD/times, which tools/test_times.py
-# prints; above 1,900 s for `test` it fails.
+# prints; above 2,200 s for `test` it fails.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
