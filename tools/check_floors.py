@@ -75,6 +75,7 @@ SHOWN = [
     "grid/generate.h",
     "io/commands.h",
     "io/gzip.h",
+    "io/lend.h",
     "io/raster/crs_description.h",
     "io/raster/height_unit.h",
     "jobs/live_tiles.h",

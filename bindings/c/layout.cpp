@@ -53,7 +53,7 @@ std::string describe_all() {
              {AT(scarp_live_options, struct_size), AT(scarp_live_options, threads), AT(scarp_live_options, max_error),
               AT(scarp_live_options, effort), AT(scarp_live_options, cell), AT(scarp_live_options, col),
               AT(scarp_live_options, row), AT(scarp_live_options, tolerance),
-              AT(scarp_live_options, max_triangles)}) +
+              AT(scarp_live_options, max_triangles), AT(scarp_live_options, level)}) +
          describe_struct("scarp_live_cell", sizeof(scarp_live_cell),
                          {AT(scarp_live_cell, struct_size), AT(scarp_live_cell, slot), AT(scarp_live_cell, version),
                           AT(scarp_live_cell, col), AT(scarp_live_cell, row), AT(scarp_live_cell, vertices),

@@ -41,6 +41,7 @@ Result<LiveOptions> read_options(const scarp_live_options& asked) {
                 "the effort of a live field is 0 (fast), 1 (normal) or 2 (high), not " + std::to_string(asked.effort));
   LiveOptions options{asked.max_error, kEfforts[asked.effort], asked.cell, asked.threads, {asked.col, asked.row}};
   if (asked.max_triangles > 0) options.max_triangles = asked.max_triangles;
+  if (asked.level != nullptr) options.level = *asked.level;
   return options;
 }
 
@@ -194,6 +195,7 @@ void scarp_live_geotransform(const scarp_live* live, double out[6]) {
 
 double scarp_live_max_error(const scarp_live* live) { return live->field.max_error(); }
 uint64_t scarp_live_triangle_count(const scarp_live* live) { return live->field.triangle_count(); }
+int64_t scarp_live_level(const scarp_live* live) { return live->field.level(); }
 uint32_t scarp_live_slot_count(const scarp_live* live) { return live->field.slot_count(); }
 void scarp_live_free(scarp_live* live) { delete live; }
 

@@ -145,6 +145,7 @@ typedef struct scarp_live_options {
   int32_t col, row; /* position of the field's first sample on the lattice of cells. DEFAULT: 0. */
   const float* tolerance; /* NULL, or a bound for each sample of the field */
   uint64_t max_triangles; /* a budget after every change; bounds exceed max_error if necessary. DEFAULT: 0, none. */
+  const int64_t* level;   /* with a budget: NULL, or scarp_live_level() of another field of the same size */
 } scarp_live_options;
 
 /* The mesh of a cell; the pointers are valid as long as the scarp_changes. */
@@ -281,8 +282,7 @@ void scarp_refiner_free(scarp_refiner* refiner);
 /* A field that changes many times a second: an update remakes only the cells that it touches. The field is copied. One
  * thread at a time may change it; a second thread gets an error. Meanwhile, other threads may call
  * scarp_live_changes(), _mesh() and the counts. A failed call changes nothing. The mesh has the same bytes as that of a
- * field made from the final samples at the same col and row. With max_triangles, the mesh also depends on earlier
- * changes. */
+ * field made from the final samples at the same col and row; with max_triangles, also at the same level. */
 void scarp_live_options_init(scarp_live_options* options, uint32_t struct_size);
 scarp_status scarp_live_create(const scarp_field* field, const scarp_live_options* options, scarp_live** out);
 /* Replaces a window of cols * rows samples, row by row; NaN and the field's nodata are voids. `tolerance`: cols * rows
@@ -310,6 +310,7 @@ void scarp_live_place(const scarp_live* live, int32_t* col, int32_t* row);
 void scarp_live_geotransform(const scarp_live* live, double out[6]);
 double scarp_live_max_error(const scarp_live* live); /* the largest error of any cell */
 uint64_t scarp_live_triangle_count(const scarp_live* live);
+int64_t scarp_live_level(const scarp_live* live); /* the state of the search for the budget */
 uint32_t scarp_live_slot_count(const scarp_live* live);
 void scarp_live_free(scarp_live* live);
 

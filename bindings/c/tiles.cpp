@@ -89,6 +89,7 @@ scarp_status make_all_tiles(const std::vector<std::string>& inputs, const scarp_
   if (!made) return report(made.error());
   if (out == nullptr) return SCARP_OK;
   cli::Json json{{"input", inputs}};
+  if (made->points) json["points"] = cli::describe(*made->points);
   cli::add_tiles(json, made->opened.job, output, made->report);
   json["warnings"] = cli::Json::array();
   for (const std::string& warning : made->warnings) json["warnings"].push_back(in_words_of_door(warning));

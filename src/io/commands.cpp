@@ -39,7 +39,7 @@ std::string comment_out_command(const std::string& file, std::uint64_t lines) {
 }
 
 std::string rasterize_command(const std::string& file) {
-  return fmt::format("scarp simplify {} {} -e ERROR --cell-size SIZE", file_word(file), new_file(".tif"));
+  return fmt::format("scarp simplify {} {} -e ERROR", file_word(file), new_file(".tif"));
 }
 
 std::string utf8_command(const std::string& encoding, const std::string& file) {

@@ -20,7 +20,7 @@ std::string warp_command(const std::string& options, const std::string& file);
 
 /// "sed '1,COUNTs/^/#/' FILE > NEW.csv": the first lines become comments.
 std::string comment_out_command(const std::string& file, std::uint64_t lines);
-/// "scarp simplify FILE NEW.tif -e ERROR --cell-size SIZE", for a file of points.
+/// "scarp simplify FILE NEW.tif -e ERROR", for a file of points.
 std::string rasterize_command(const std::string& file);
 /// "iconv -f ENCODING -t UTF-8 FILE > NEW.csv".
 std::string utf8_command(const std::string& encoding, const std::string& file);

@@ -123,7 +123,7 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
       return tell(from_its_source(path));
     case Way::kLas:
       return tell(
-          fmt::format("simplify, measure and info read it as points (--points); for others make a raster of it "
+          fmt::format("simplify, measure, info and tile read it as points (--points); for others make a raster of it "
                       "first ({})",
                       rasterize_command(path)));
     case Way::kCloud:

@@ -495,6 +495,21 @@ static void try_live(void) {
   scarp_live_place(live, &col, &row);
   EXPECT(col == 4 && row == -6);
   scarp_live_free(live);
+
+  /* A budget: at the same level, the same mesh. */
+  scarp_live* other = NULL;
+  options.max_triangles = 400;
+  EXPECT(scarp_live_create(&field, &options, &live) == SCARP_OK && scarp_live_triangle_count(live) <= 400);
+  const int64_t level = scarp_live_level(live);
+  options.level = &level;
+  EXPECT(scarp_live_create(&field, &options, &other) == SCARP_OK && scarp_live_level(other) == level);
+  EXPECT(scarp_live_triangle_count(other) == scarp_live_triangle_count(live));
+  scarp_live_free(other);
+  scarp_live_free(live);
+  const int64_t too_high = INT64_MAX;
+  options.level = &too_high;
+  EXPECT(scarp_live_create(&field, &options, &live) == SCARP_USAGE);
+  EXPECT_SAYS("has no level");
   scarp_live_free(NULL);
   scarp_changes_free(NULL);
 }

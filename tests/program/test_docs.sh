@@ -122,6 +122,8 @@ while read -r command option choices; do
     "measure --duplicates" | "measure --returns") continue ;; # asked after the mesh is read
     "simplify --returns") try "$scarp" simplify points.csv out.obj -e 1 --class returns=nonsense ;;
     "info --returns") try "$scarp" info points.csv --class returns=nonsense ;;
+    "tile --duplicates") try "$scarp" tile points.csv out "$option" nonsense ;;
+    "tile --returns") try "$scarp" tile points.csv out --class returns=nonsense ;;
     "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
     "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem,format=nonsense" ;;
     "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines,conflict=nonsense ;;

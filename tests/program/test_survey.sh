@@ -67,7 +67,19 @@ refuses 1 "cannot be combined with --breaklines" "$scarp" simplify survey.csv x.
 succeeds "$scarp" simplify survey.csv dem.tif -e 1 --cell-size 10 -q
 succeeds "$scarp" info dem.tif --no-suggest
 grep -Eq '10[01] columns x 8[01] rows' "$logs/out" || fail "the size of the raster: $(cat "$logs/out")"
-refuses 1 "give the size of its cells with --cell-size" "$scarp" simplify survey.csv x.tif -e 1
+succeeds "$scarp" simplify survey.csv spaced.tif -e 0 --effort fast
+grep -q 'cell size  *10$' "$logs/out" || fail "no cell size by the points' distance: $(cat "$logs/out")"
+# Tiles of points are those of that raster.
+succeeds "$scarp" tile survey.csv at_once -e 1 --cells 32 --report at_once.json
+grep -q 'points  *[0-9,]*, as a raster of cells 10 wide' "$logs/out" || fail "no word on the points: $(cat "$logs/out")"
+succeeds "$scarp" tile spaced.tif in_steps -e 1 --cells 32
+rm at_once/tileset.json in_steps/tileset.json # they name the input
+diff -r at_once in_steps || fail "tiles of points differ from those of their raster"
+[ "$(json at_once.json points cell_size)" = 10.0 ] || fail "the report lacks the cell size"
+succeeds "$scarp" tile survey.csv west -e 1 --cells 32 --cell-size 25 --te 500000 4649000 500500 4649800 -q
+refuses 1 "--band is for rasters, and survey.csv holds points" "$scarp" tile survey.csv x --band 2
+refuses 1 "--class is for scattered points, and dem.tif is read as a raster" "$scarp" tile dem.tif x --class ground
+refuses 2 "make one of them first" "$scarp" tile plan survey.csv x.json
 refuses 1 "--cell-size is for rasters, and survey.csv holds points" "$scarp" simplify survey.csv x.glb -e 1 --cell-size 5
 refuses 1 "choose larger" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 1e-9
 

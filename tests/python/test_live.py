@@ -64,6 +64,11 @@ class Live(unittest.TestCase):
         self.assertGreater(sum(count >= 1470 for count in counts), 5, counts)
         report = scarp.measure(live.heights, live.mesh(), transform=live.transform)
         self.assertEqual((report.max_error, report.uncovered), (live.max_error, 0))
+        anew = scarp.Live(live.heights, max_triangles=1500, level=live.level)
+        self.assertEqual(anew.level, live.level)
+        np.testing.assert_array_equal(*(np.concatenate([cell.positions for cell in one.changes().cells]) for one in (live, anew)))
+        with self.assertRaisesRegex(scarp.UsageError, "has no level"):
+            scarp.Live(z, max_triangles=1500, level=2**40)
         self.assertLess(scarp.Live(np.zeros((99, 99)), max_triangles=5000).triangle_count, 100)
         with self.assertRaisesRegex(scarp.UsageError, "needs max_error or max_triangles"):
             scarp.Live(z)

@@ -38,13 +38,15 @@ Result<void> run_tile(const GivenOptions& given, const std::string& command_line
   const double seconds = seconds_since(start);
   if (given[kReport]) {
     Json json{{"command", command_line}, {"input", given.inputs()}};
+    if (made.points) json["points"] = describe(*made.points);
     add_tiles(json, job, *given[kOutput], made.report);
     json["warnings"] = made.warnings;
     json["seconds"] = seconds;
     SCARP_RETURN_IF_ERROR(write_report(json, *given[kReport], given.has(kOverwrite), *given[kOutput]));
   }
   if (given.has(kQuiet)) return {};
-  return print_summary(make_tile_summary(job, *given[kOutput], made.report, seconds));
+  const std::string points = made.points ? points_line(*made.points) : "";
+  return print_summary(make_tile_summary(job, *given[kOutput], made.report, seconds, points));
 }
 
 }  // namespace scarp::cli

@@ -12,10 +12,11 @@ struct LiveAsked {
   double tolerances;  ///< address of cols · rows float32; 0: none
   double col, row;    ///< LiveOptions::place
   double triangles;   ///< a budget; 0: none
+  double level;       ///< NaN: found
 };
 
 struct LiveState {
-  double cols, rows, col, row, max_error, triangles, slots;
+  double cols, rows, col, row, max_error, triangles, slots, level;
 };
 
 struct CellView {
@@ -55,6 +56,7 @@ SCARP_EXPORT(scarp_live_create) LiveField* scarp_live_create(const Field* given_
     options.cell = whole(asked->cell);
     options.place = {whole(asked->col), whole(asked->row)};
     if (asked->triangles > 0) options.max_triangles = static_cast<std::uint64_t>(asked->triangles);
+    if (asked->level == asked->level) options.level = static_cast<std::int64_t>(asked->level);
     SCARP_TRY(auto&& live,
               LiveField::create(field, options, values(asked->tolerances, given_field->cols * given_field->rows)));
     return std::make_unique<LiveField>(std::move(live));
@@ -80,7 +82,8 @@ SCARP_EXPORT(scarp_live_state) void scarp_live_state(const LiveField* live, Live
             static_cast<double>(place.row),
             live->max_error(),
             static_cast<double>(live->triangle_count()),
-            static_cast<double>(live->slot_count())};
+            static_cast<double>(live->slot_count()),
+            static_cast<double>(live->level())};
 }
 SCARP_EXPORT(scarp_live_heights) double scarp_live_heights(const LiveField* live, float* out) {
   return guarded<double>(0, [&]() -> Result<double> {

@@ -5,7 +5,7 @@ import { checkLength, checkSide, putDoubles, putField, refuse, takeBeside, takeR
 import { takeMesh } from './mesh.js';
 import { choose, show, takeOptions } from './options.js';
 
-const STATE = 7;
+const STATE = 8;
 const CELL = 9;
 const forgotten = new FinalizationRegistry(handle => call('scarp_live_free', [handle]));
 
@@ -27,6 +27,7 @@ export class Live {
       cell = 0,
       tolerance,
       place = [0, 0],
+      level = NaN,
       nodata,
       transform,
       degrees,
@@ -45,6 +46,7 @@ export class Live {
         bounds,
         Array.from(place),
         maxTriangles ?? 0,
+        level,
       );
       return callOrThrow('scarp_live_create', [address, asked]);
     });
@@ -60,8 +62,8 @@ export class Live {
     return withBlocks(blocks => {
       const out = blocks.allocate(8 * STATE);
       call('scarp_live_state', [this.#handle, out]);
-      const [width, height, col, row, maxError, triangleCount, slotCount] = view(Float64Array, out, STATE);
-      return { width, height, place: [col, row], maxError, triangleCount, slotCount };
+      const [width, height, col, row, maxError, triangleCount, slotCount, level] = view(Float64Array, out, STATE);
+      return { width, height, place: [col, row], maxError, triangleCount, slotCount, level };
     });
   }
 
@@ -146,6 +148,9 @@ export class Live {
   }
   get triangleCount() {
     return this.#state.triangleCount;
+  }
+  get level() {
+    return this.#state.level;
   }
   get slotCount() {
     return this.#state.slotCount;

@@ -19,6 +19,8 @@ export interface LiveOptions extends Place {
   tolerance?: Numbers | null;
   /** Column and row of the first sample on the lattice of cells. */
   place?: Numbers;
+  /** With a budget: the property level of another field of the same size, to get its mesh from its samples. */
+  level?: number;
 }
 /** A rectangle of samples. Columns and rows count from the field's first sample. */
 export interface LiveWindow {
@@ -52,8 +54,8 @@ export interface LiveChanges {
 export interface Live extends Disposable {}
 /**
  * A field that changes many times a second, and its mesh: an update remakes only the cells that it touches. After any
- * changes, the mesh has the bytes of a mesh made from the final samples at the same place; with maxTriangles it also
- * depends on earlier changes. A failed call changes nothing. The constructor fails if another entry of the package was
+ * changes, the mesh has the bytes of a mesh made from the final samples at the same place; with maxTriangles, also at
+ * the same level. A failed call changes nothing. The constructor fails if another entry of the package was
  * loaded first.
  */
 export class Live {
@@ -76,6 +78,8 @@ export class Live {
   readonly place: [number, number];
   readonly maxError: number;
   readonly triangleCount: number;
+  /** The state of the search for the budget. */
+  readonly level: number;
   readonly slotCount: number;
   /** Frees its memory at once. The garbage collector frees it late, since it does not know the size. */
   free(): void;

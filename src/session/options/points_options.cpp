@@ -142,7 +142,9 @@ Result<void> check_kind_of_input(const GivenOptions& given) {
                             are_points ? "holds points, whose errors are a table: name it .csv"
                                        : "is read as a raster, whose errors are a raster: name it .tif"));
   for (const OptionRow* row : given.given()) {
-    if (are_points && !row->is_for_points)
+    // The other options of tiles apply to the raster that is made of the points.
+    const bool is_of_reading = given.command() != kTile || row->group == OptionGroup::kInput;
+    if (are_points && !row->is_for_points && is_of_reading)
       return fail(ErrorKind::kUsage,
                   fmt::format("{} is for rasters, and {} holds points: leave it out", row->title(), input));
     if (!are_points && row->group == OptionGroup::kPoints)

@@ -194,6 +194,7 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                                                        format_count(outcome.duplicates), policy_name(outcome.policy)));
   text += summary_line("lattice step", format_number(outcome.lattice_step));
   text += files_lines(plan, files);
+  if (outcome.cell_size) text += summary_line("cell size", format_number(*outcome.cell_size));
   text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the {}", format_count(outcome.vertices),
                                                format_share(static_cast<double>(outcome.vertices),
                                                             static_cast<double>(outcome.points.size())),

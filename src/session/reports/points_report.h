@@ -36,6 +36,7 @@ struct PointsOutcome : SimplifyRun {
   std::optional<std::array<double, 2>> centre;  ///< centre of the local frame, if the mesh has one and the points
                                                 ///< have none
   Picture drape;                                ///< empty without a draped image
+  std::optional<double> cell_size;              ///< for a raster as OUTPUT
 
   /// The frame of the mesh's x and y.
   std::string frame() const;

@@ -103,7 +103,7 @@ void add_tiles(Json& json, const TileJob& job, const std::string& output, const 
 }
 
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
-                              double seconds) {
+                              double seconds, const std::string& points_line) {
   const PyramidPlan& plan = job.plan;
   LevelSummary all;
   for (const LevelSummary& level : report.levels) {
@@ -111,7 +111,7 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
     all.triangles += level.triangles;
     all.bytes += level.bytes;
   }
-  std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
+  std::string text = fmt::format("{} -> {}\n", job.facts.name, output) + points_line;
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += grid_lines(job);
   if (job.filled > 0)

@@ -17,9 +17,9 @@ std::string format_length(const TileJob& job, double length);
 std::string grid_lines(const TileJob& job);
 /// Summary line about lakes and rivers; empty without water.
 std::string waters_line(const TileJob& job);
-/// A table of the levels, with input and output above and the time below.
+/// A table of the levels, with input and output above and the time below. `points_line`: about points as input, or "".
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
-                              double seconds);
+                              double seconds, const std::string& points_line = "");
 /// Warnings about a raster, except those about a mesh's frame.
 std::vector<std::string> warnings_of_raster(const GlobeRaster& raster);
 /// The expected cost, the actual cost and their ratio; null without an expectation.

@@ -136,6 +136,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
+     .is_for_points = true,
      .help = "Lines of a vector file, in any CRS, that become edges of the tiles' meshes, with the raster's heights. "
              "Each level moves the lines to its own nodes.",
      .brief = "Lines that become edges of the tiles' meshes"},
@@ -175,6 +176,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "DATUM",
      .choices = "auto egm96 egm2008 ellipsoid none",
      .by_default = "auto",
+     .is_for_points = true,
      .help = "Vertical datum of the heights. auto: from the raster's CRS, which must name one. egm96: mean sea level, "
              "by a built-in grid. egm2008, or EPSG:N of a vertical CRS: by PROJ, if its grid is installed. ellipsoid: "
              "heights as measured by GPS. none: unknown; heights are used unchanged and may be 100 m off.",
@@ -185,6 +187,7 @@ constexpr OptionRow kTileRows[] = {
      .group = OptionGroup::kInput,
      .type = kInputFile,
      .value = "FILE",
+     .is_for_points = true,
      .help = "Raster of the heights' reference surface, such as a geoid, in metres above the ellipsoid: GTX, GeoTIFF "
              "or another raster of GDAL. Replaces --vertical."},
     {.id = kEllipsoid,
@@ -195,6 +198,7 @@ constexpr OptionRow kTileRows[] = {
      .value = "A,B",
      .unit = "metres",
      .by_default = "that of WGS 84; on other planets that of the raster's CRS",
+     .is_for_points = true,
      .help = "Ellipsoid of the globe: equatorial and polar radius. The raster's longitudes and latitudes are then "
              "used unchanged."},
     {.id = kBackground,
@@ -248,6 +252,7 @@ constexpr OptionRow kTileRows[] = {
      .type = kText,
      .value = "W,S,E,N",
      .unit = "degrees",
+     .is_for_points = true,
      .help = "Make only blocks that touch the box; blocks outside are treated as nodata. These tiles are identical "
              "to those of the whole set."},
     {.id = kOnly,

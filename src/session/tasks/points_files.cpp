@@ -49,8 +49,21 @@ void place_in_file(const PointSet& points, const std::array<double, 2>& corner, 
   info.has_georeference = true;
 }
 
-/// The mesh's heights at the centres of cells, whose corners are multiples of `size`; NaN outside the mesh. REQUIRES:
-/// the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
+}  // namespace
+
+double find_cell_size(const PointsOutcome& outcome) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto a = mesh.vertex(mesh.triangles[3 * t]), b = mesh.vertex(mesh.triangles[3 * t + 1]),
+               c = mesh.vertex(mesh.triangles[3 * t + 2]);
+    area += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+  }
+  const double spacing = std::sqrt(area / static_cast<double>(outcome.points.size()));
+  const double power = std::pow(10, std::floor(std::log10(spacing)));
+  return power * (spacing >= 5 * power ? 5 : spacing >= 2 * power ? 2 : 1);
+}
+
 Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads) {
   const PointSet& points = outcome.points;
   SCARP_TRY(const auto& across, cells_over(points.x, size));
@@ -70,6 +83,8 @@ Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, 
   SCARP_TRY(field.samples, resample(field, outcome.simplified.mesh, threads));
   return field;
 }
+
+namespace {
 
 Result<void> add_preview(const SimplifyPlan& plan, const PointsOutcome& outcome, std::vector<ReadyFile>& files) {
   constexpr double kPixels = 1400;
@@ -133,17 +148,11 @@ Result<void> encode_output(const SimplifyPlan& plan, const PointsOutcome& outcom
 }  // namespace
 
 Result<void> check_cell_size(const SimplifyPlan& plan, const GivenOptions& given) {
-  const bool is_dem = plan.format.kind == OutputKind::kDem;
-  if (is_dem == given.has(kCellSize)) return {};
-  const std::string input = shell_word(base_name(given.input()));
+  if (plan.format.kind == OutputKind::kDem || !given.has(kCellSize)) return {};
   return fail(ErrorKind::kUsage,
-              is_dem
-                  ? fmt::format("{} is a raster, and {} holds points, which lie on no grid: give the size of its "
-                                "cells with {}, in the unit of x and y",
-                                *given[kOutput], input, kCellSize)
-                  : fmt::format("{} is for rasters, and {} holds points: omit it, or choose a raster as OUTPUT, such "
-                                "as {}",
-                                kCellSize, input, shell_word(base_name(given.input()) + ".tif")));
+              fmt::format("{} is for rasters, and {} holds points: omit it, or choose a raster as OUTPUT, such as {}",
+                          kCellSize, shell_word(base_name(given.input())),
+                          shell_word(base_name(given.input()) + ".tif")));
 }
 
 void collect_errors(const PointSet& points, std::vector<std::uint8_t>& file, MeasureOptions& options) {
@@ -166,7 +175,8 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runn
   if (added && plan.error_raster) added = add_errors(plan, runner, outcome, files);
   SCARP_RETURN_IF_ERROR(added);
   if (plan.format.kind == OutputKind::kDem) {
-    SCARP_TRY(const auto& field, draw_raster(outcome, *plan.read.cell_size, plan.simplify.run.threads));
+    outcome.cell_size = plan.read.cell_size.value_or(find_cell_size(outcome));
+    SCARP_TRY(const auto& field, draw_raster(outcome, *outcome.cell_size, plan.simplify.run.threads));
     SCARP_TRY(files.front().bytes,
               encode_raster({field.samples, field.cols, field.rows, &field.info}, plan.format.raster));
   }

@@ -6,6 +6,7 @@
 
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
+#include "session/options/points_options.h"
 #include "session/reports/tile_report.h"
 #include "session/tasks/counted_set.h"
 #include "session/text/paths.h"
@@ -24,7 +25,12 @@ Result<void> check_container(const TileJob& job, const std::string& output) {
 Result<MadeTiles> make_tiles(const GivenOptions& tiles, const std::string& output, bool overwrite, const Run& run,
                              TileCounts& counts) {
   SCARP_RETURN_IF_ERROR(check_set_name(output));
-  SCARP_TRY(auto opened, open_tiles(tiles, run.progress));
+  SCARP_RETURN_IF_ERROR(check_kind_of_input(tiles));
+  std::unique_ptr<PointsRaster> points;
+  if (are_points_meant(tiles)) {
+    SCARP_TRY(points, PointsRaster::make(tiles, {run.progress}));
+  }
+  SCARP_TRY(auto opened, open_tiles(points ? points->options(tiles) : tiles, run.progress));
   const TileJob& job = opened.job;
   SCARP_RETURN_IF_ERROR(check_container(job, output));
   SCARP_TRY(auto encoder, open_tile_encoder(job));
@@ -36,10 +42,11 @@ Result<MadeTiles> make_tiles(const GivenOptions& tiles, const std::string& outpu
   SCARP_RETURN_IF_ERROR(check_heights(job, report));
   SCARP_RETURN_IF_ERROR(sink->put_files(report, job.facts));
   SCARP_RETURN_IF_ERROR(set.finish());
-  std::vector<std::string> warnings = warnings_of_raster(*opened.raster);
+  std::vector<std::string> warnings = points ? points->warnings() : std::vector<std::string>();
+  for (std::string& warning : warnings_of_raster(*opened.raster)) warnings.push_back(std::move(warning));
   warnings.insert(warnings.end(), opened.warnings.begin(), opened.warnings.end());
   for (std::string& warning : warnings_of_levels(job.plan, report)) warnings.push_back(std::move(warning));
-  return MadeTiles{std::move(opened), std::move(report), std::move(warnings)};
+  return MadeTiles{std::move(points), std::move(opened), std::move(report), std::move(warnings)};
 }
 
 }  // namespace scarp::cli

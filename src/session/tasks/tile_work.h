@@ -1,16 +1,19 @@
 // scarp tile without its terminal: from rasters to a finished set.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "session/options/tile_options.h"
 #include "session/plan/tile_plan.h"
+#include "session/tasks/points_raster.h"
 #include "session/text/tile_counts.h"
 
 namespace scarp::cli {
 
 struct MadeTiles {
+  std::unique_ptr<PointsRaster> points;  ///< set for scattered points
   OpenedJob opened;
   PyramidReport report;
   std::vector<std::string> warnings;

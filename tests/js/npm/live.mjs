@@ -86,6 +86,11 @@ if (process.argv[2] === 'hash') {
       assert.ok(live.triangleCount <= 3000, `${live.triangleCount}`);
     }
     assert.ok(live.maxError > 0);
+    const { level, place } = live;
+    const options = { maxTriangles: 3000, effort: 'normal', cell: 8, place, level };
+    const anew = new Live(live.heights(), width, height, options);
+    assert.deepEqual(bytesOf(anew), bytesOf(live));
+    assert.equal(anew.level, level);
     assert.throws(() => new Live(field(), width, height, { maxTriangles: 9 }), /more than its budget of 9/);
   });
 

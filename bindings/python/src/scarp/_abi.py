@@ -75,7 +75,7 @@ class Volumes(C.Structure):
 class LiveOptions(C.Structure):
     _fields_ = [("struct_size", C.c_uint32), ("threads", C.c_int32), ("max_error", C.c_double), ("effort", C.c_int32),
                 ("cell", C.c_int32), ("col", C.c_int32), ("row", C.c_int32), ("tolerance", C.c_void_p),
-                ("max_triangles", C.c_uint64)]
+                ("max_triangles", C.c_uint64), ("level", C.c_void_p)]
 
 
 class LiveCell(C.Structure):
@@ -148,6 +148,7 @@ _FUNCTIONS = {
     "scarp_live_geotransform": (None, [_P, _P]),
     "scarp_live_max_error": (_D, [_P]),
     "scarp_live_triangle_count": (_U, [_P]),
+    "scarp_live_level": (C.c_int64, [_P]),
     "scarp_live_slot_count": (_T, [_P]),
     "scarp_live_free": (None, [_P]),
     "scarp_changes_version": (_U, [_P]),

@@ -60,11 +60,12 @@ class Live:
     tolerance      (rows, columns) bounds for the samples, or one number; inf: none
     place          (row, column) of the first sample on the lattice of cells
     threads        for an update that touches several cells; never changes the mesh
+    level          with a budget: the property level of another field of the same shape, to get its mesh from its samples
 
     NaN, infinities, nodata and masked samples are voids. One thread at a time may change the field; a second one gets a
     UsageError; others may read meanwhile. A failed call changes nothing. Runs without
     Python's lock. After any changes the mesh has the bytes of one made from the final samples at the same place; with
-    max_triangles it depends on the changes before, too.
+    max_triangles, also at the same level.
 
     >>> live = Live(z, 0.05)
     >>> live.update(slice(10, 60), slice(20, 70), z[10:60, 20:70] + 0.3)
@@ -75,7 +76,8 @@ class Live:
 
     def __init__(self, source: Any, max_error: Optional[float] = None, *, max_triangles: Optional[int] = None,
                  effort: str = "fast", cell: int = 0, band: int = 1, transform: Any = None, crs: Any = None,
-                 nodata: Optional[float] = None, tolerance: Any = None, place: tuple[int, int] = (0, 0), threads: int = 1) -> None:
+                 nodata: Optional[float] = None, tolerance: Any = None, place: tuple[int, int] = (0, 0), threads: int = 1,
+                 level: Optional[int] = None) -> None:
         self._handle = None
         if numpy_if_there() is None:
             raise UsageError("scarp.Live needs numpy")
@@ -90,6 +92,9 @@ class Live:
         options.max_error = _values.bound_of("max_error", 0 if max_error is None else max_error)
         if max_triangles is not None:
             options.max_triangles = _values.whole_of("max_triangles", max_triangles, 1, 2**63)
+        if level is not None:
+            start = C.c_int64(_values.whole_of("level", level, -2**63, 2**63 - 1))
+            options.level = C.addressof(start)
         options.effort = _EFFORTS[effort]
         options.cell = _values.whole_of("cell", cell, 0, _LARGEST)
         options.threads = _values.whole_of("threads", threads, 0, _LARGEST)
@@ -254,6 +259,12 @@ class Live:
     def triangle_count(self) -> int:
         count: int = self._call(_abi.lib.scarp_live_triangle_count)
         return count
+
+    @property
+    def level(self) -> int:
+        """The state of the search for the budget."""
+        level: int = self._call(_abi.lib.scarp_live_level)
+        return level
 
     @property
     def slot_count(self) -> int:
