@@ -199,7 +199,7 @@ O("Git LFS", "scarp simplify lfs.tif o.glb -e 1", r"\(git lfs pull\)", "true", "
 C("a mesh", "scarp simplify mesh.glb o.glb -e 20")
 C("a mesh as OBJ, to tiles", "scarp tile mesh.obj g -e 20 --zoom 9")
 C("a mesh as lines", "scarp simplify dem.tif o.glb -e 20 --breaklines mesh.glb")
-C("points for tiles", "scarp tile p.xyz g -e 20 --zoom 9 --vertical ellipsoid", "printf 'lon lat height\\n8.1 46.1 500\\n8.2 46.1 600\\n8.1 46.2 700\\n8.2 46.25 650\\n8.15 46.16 640\\n' > p.xyz; echo EPSG:4326 > p.prj",
+C("points for a plan of tiles", "scarp tile plan p.xyz g.json -e 20 --zoom 9 --vertical ellipsoid", "printf 'lon lat height\\n8.1 46.1 500\\n8.2 46.1 600\\n8.1 46.2 700\\n8.2 46.25 650\\n8.15 46.16 640\\n' > p.xyz; echo EPSG:4326 > p.prj",
   {"ERROR": "1", "SIZE": "500", **BOX}, then="scarp tile NEW.tif g -e 20 --zoom 9 --vertical ellipsoid")
 C("a lidar file for a plan of tiles", "scarp tile plan scan.las g.json -e 20 --grid local --vertical none", fill={"ERROR": "1"}, then="scarp tile plan NEW.tif g.json -e 20 --grid local --vertical none")
 C("the mesh before the raster", "scarp measure mesh.obj dem.tif --crs source")
