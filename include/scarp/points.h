@@ -139,9 +139,9 @@ struct PointOptions {
   /// where they are needed to connect the points. DEFAULT: the mesh ends at the convex hull.
   std::optional<double> boundary_length = std::nullopt;
   /// The work after refinement: effort, vertices, min_shape and shape, as for a raster. Other members do not apply.
-  /// `shape` needs a max error and no budget; vertices added for it get the height of the surface. Free vertices lie on
-  /// a lattice of 2^22 steps or more over the extent. A max error of 0, or one not above the rounding of heights to
-  /// float32, allows fast effort only. DEFAULT: normal effort.
+  /// Vertices added for `shape` get the height of the surface. Free vertices lie on a lattice of 2^22 steps or more
+  /// over the extent. A max error of 0, or one not above the rounding of heights to float32, allows fast effort only.
+  /// DEFAULT: normal effort.
   Quality quality = {};
   /// |mesh − z| <= tolerance at every point, in addition to max_error. One tolerance for each point, at least 0;
   /// +infinity: none. For points at one place, the tolerance of the point that counts is used; with kMean, that of the
@@ -151,18 +151,18 @@ struct PointOptions {
 };
 
 /// Inserts scattered samples greedily (which section 2 of the 1995 paper only mentions), then removes vertices
-/// according to the effort, as on a raster. With a budget and an effort above fast, it searches for an error. The
-/// domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham et al. (2008); else the
-/// convex hull. The chi-shape begins as the Delaunay triangulation of all points. Triangles whose boundary edge exceeds
-/// boundary_length are removed, the longest edge first. A triangle is kept if its removal would split the domain or
-/// exclude a point, or if the domain's boundary would not remain a simple polygon. All corners of this polygon are
-/// vertices. Each triangle stores the list of its points. Coordinates are snapped to an integer lattice of up to 2^30
-/// steps: the coarsest lattice that contains the given decimals exactly; if there is none, the finest lattice whose
-/// step is a power of two. With an effort above fast, or with float32_positions and lines, the step is that of the
-/// decimals divided by a power of two, or a power of two; the extent then has at least 2^22 steps. Different points are
-/// never merged: the call fails if the lattice cannot separate two points. Among points of equal error, the
-/// northernmost, then westernmost one is inserted. For points on a grid, fast effort selects the same vertices as
-/// simplify() for the raster, except for ties.
+/// according to the effort, as on a raster. With a budget and an effort above fast, lines or goals for shapes, it
+/// searches for an error. The domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham
+/// et al. (2008); else the convex hull. The chi-shape begins as the Delaunay triangulation of all points. Triangles
+/// whose boundary edge exceeds boundary_length are removed, the longest edge first. A triangle is kept if its removal
+/// would split the domain or exclude a point, or if the domain's boundary would not remain a simple polygon. All
+/// corners of this polygon are vertices. Each triangle stores the list of its points. Coordinates are snapped to an
+/// integer lattice of up to 2^30 steps: the coarsest lattice that contains the given decimals exactly; if there is
+/// none, the finest lattice whose step is a power of two. With an effort above fast, or with float32_positions and
+/// lines, the step is that of the decimals divided by a power of two, or a power of two; the extent then has at least
+/// 2^22 steps. Different points are never merged: the call fails if the lattice cannot separate two points. Among
+/// points of equal error, the northernmost, then westernmost one is inserted. For points on a grid, fast effort selects
+/// the same vertices as simplify() for the raster, except for ties.
 ///
 /// A line becomes a chain of edges through some of its points, including its ends (for a ring, at least three points).
 /// With PointLine::keeps_vertices, the chain passes through all points. Chains do not cross, so no triangle crosses a
@@ -174,9 +174,9 @@ struct PointOptions {
 /// Guarantees that |mesh − z| is at most max_error, and at most the point's tolerance, at every point that is not
 /// dropped as a duplicate. This holds at the point's given coordinates, for the positions stored in the mesh. Vertices
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
-/// for no goal; a max_error out of range; a budget too small for the hull; a boundary_length not above 0; a budget or a
-/// boundary_length with lines; a budget with goals for shapes; such goals out of range; a wrong number of tolerances;
-/// tolerances below 0, NaN or with a budget; the dominant order. Fails with kInput for lines that meet at different
+/// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; a boundary_length not above
+/// 0, or with lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or with a
+/// budget; the dominant order. Fails with kInput for lines that meet at different
 /// heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
 /// beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30 of the extent (the message
 /// names these points and the far point that makes the extent so large). Fails with kPromise if float32 positions

@@ -20,8 +20,6 @@ Result<void> check_goals(const PointOptions& options) {
     return fail(ErrorKind::kUsage,
                 fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
   const Quality& quality = options.quality;
-  if (quality.shape.any() && (!options.max_error || options.max_triangles || options.max_vertices))
-    return fail(ErrorKind::kUsage, "goals for angles and edges need a max error, without a budget");
   if (quality.order == Order::kDominant)
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
   if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)
@@ -36,11 +34,7 @@ Result<void> check_lines(const PointSet& points, const PointOptions& options) {
     return fail(ErrorKind::kUsage,
                 "boundary_length cannot be combined with lines such as contours, which may cross what it takes away: "
                 "leave it out");
-  if (points.lines.empty() || (!options.max_triangles && !options.max_vertices)) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} cannot be combined with lines such as contours, which need vertices of their own beyond "
-                          "any budget: ask for a max error",
-                          options.max_triangles ? "max_triangles" : "max_vertices"));
+  return {};
 }
 
 Result<void> check_tolerances(const PointSet& points, const PointOptions& options) {
@@ -86,7 +80,8 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool
       traits(traits_of(effort)),
       aims(asked.max_error.value_or(0), largest),
       removes(traits.fits && (!asked.max_error || aims.is_open())),
-      searches(removes && (asked.max_triangles || asked.max_vertices)),
+      insertion_stops(points.lines.empty() && !asked.quality.shape.any()),
+      searches((removes || !insertion_stops) && (asked.max_triangles || asked.max_vertices)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
       removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),
       steps(asked.float32_positions && (removes || asked.quality.shape.any() || !points.lines.empty())

@@ -34,15 +34,16 @@ struct PointRecipe {
   }
 
   PointOptions options;
-  double largest;       ///< the largest magnitude of a height
-  Effort effort;        ///< never kAuto
-  EffortTraits traits;  ///< the work of that effort
-  PointAims aims;       ///< without a max error, those for 0
-  bool removes;         ///< vertices are removed after refinement
-  bool searches;        ///< runs for several errors find the mesh of a budget
-  bool frees_vertices;  ///< vertices may move off the points
-  bool removes_last;    ///< vertices are removed after those for angles and edges, whose goals removal preserves
-  PointSteps steps;     ///< lattice of the points
+  double largest;        ///< the largest magnitude of a height
+  Effort effort;         ///< never kAuto
+  EffortTraits traits;   ///< the work of that effort
+  PointAims aims;        ///< without a max error, those for 0
+  bool removes;          ///< vertices are removed after refinement
+  bool insertion_stops;  ///< insertion can stop at budgets (BudgetTask)
+  bool searches;         ///< runs for several errors find the mesh of a budget
+  bool frees_vertices;   ///< vertices may move off the points
+  bool removes_last;     ///< vertices are removed after those for angles and edges, whose goals removal preserves
+  PointSteps steps;      ///< lattice of the points
 };
 
 }  // namespace scarp

@@ -35,7 +35,7 @@ class PointRun {
         lines_(task.lines),
         budget_(options_.max_triangles, options_.max_vertices),
         bound_(options_.max_error.value_or(0)),
-        least_(task.least()),
+        least_(task.least(recipe.options.quality.shape.any())),
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
         // Vertices for shapes may be a step from an edge that rounding moves by half a step.
@@ -70,8 +70,7 @@ class PointRun {
     return result;
   }
 
-  std::uint64_t flat() const { return flat_; }
-  std::uint64_t loose() const { return loose_; }
+  const PointFacts& facts() const { return facts_; }
 
  private:
   MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
@@ -94,7 +93,7 @@ class PointRun {
     result.effort = recipe_.effort;
     if (!lines_.empty() && !goals().any()) {
       restart_refinement();
-      if (refinement_->done()) flat_ = refinement_->flip_flats(lines_.on_lines());
+      if (refinement_->done()) facts_.flat = refinement_->flip_flats(lines_.on_lines());
     }
     result.is_cut_short = fitted.is_cut_short;
     note_vertices(result);
@@ -175,7 +174,7 @@ class PointRun {
     for (;;) {
       const auto splits = lines_.find_splits(find_vertices(domain_, snapped_.size()));
       if (splits.empty()) {
-        loose_ = lines_.hold(domain_);
+        facts_.loose = lines_.hold(domain_);
         forget_refinement();
         start_refinement();
         if (refinement_->done()) break;
@@ -183,7 +182,7 @@ class PointRun {
       for (const std::uint32_t point : splits) insert(point);
       SCARP_RETURN_IF_ERROR(refine(stop));
     }
-    flat_ = refinement_->flip_flats(lines_.on_lines());
+    facts_.flat = refinement_->flip_flats(lines_.on_lines());
     return {};
   }
 
@@ -420,7 +419,8 @@ class PointRun {
   std::optional<ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> points_by_source_, mended_;
   std::optional<Offender> stuck_;  ///< a vertex that breaks its bound
-  std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0, flat_ = 0, loose_ = 0;
+  std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0;
+  PointFacts facts_;
   Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
@@ -432,8 +432,7 @@ Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, S
   PointRun run(task, recipe, std::move(domain));
   PointMesh made;
   SCARP_TRY(made.simplified, run.execute(start));
-  made.flat = run.flat();
-  made.loose = run.loose();
+  made.facts = run.facts();
   return made;
 }
 

@@ -22,16 +22,22 @@ struct PointTask {
   std::span<const double> heights;  ///< heights of points as vertices: z, perhaps rounded to float32
   const PointLines& lines;
   PointSteps steps;
-  /// The subject of the error for a budget that the outline exceeds.
-  const char* least() const {
+  /// The subject of the error for a budget that the least mesh exceeds.
+  const char* least(bool has_shapes) const {
+    if (!points.lines.empty()) return "the lines and the outline of the points alone need";
+    if (has_shapes) return "the angles and edges alone need";
     return points.boundary.empty() ? "the hull of the points alone needs" : "the boundary alone needs";
   }
   double width;  ///< width of the hull: ScatteredDomain::width
 };
 
+struct PointFacts {
+  std::uint64_t flat = 0, loose = 0;  ///< those of SimplifiedPoints
+};
+
 struct PointMesh {
   Simplified simplified;
-  std::uint64_t flat = 0, loose = 0;  ///< those of SimplifiedPoints
+  PointFacts facts = {};
 };
 
 /// Makes one mesh: towards the max error, or until insertion reaches a budget. Fails like simplify_points(). REQUIRES:

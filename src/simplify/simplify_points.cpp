@@ -7,16 +7,17 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 #include <vector>
 
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
+#include "pieces/checks.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
 #include "scarp/points.h"
-#include "pieces/checks.h"
 #include "simplify/budget_search.h"
 #include "simplify/point_recipe.h"
 #include "simplify/point_run.h"
@@ -91,12 +92,14 @@ Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, con
 }
 
 /// Finds the mesh of a budget by runs for several errors.
-Result<Simplified> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
+Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
   const PointOptions& asked = recipe.options;
   SimplifyOptions options;
   options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices};
   options.quality = asked.quality;
   options.run = asked.run;
+  // Facts of the mesh whose positions lie at this address.
+  std::map<const double*, PointFacts> facts;
   BudgetTask search;
   search.run = [&](const SimplifyOptions& towards, const Scale& scale) -> Result<Simplified> {
     PointOptions once = asked;
@@ -104,15 +107,19 @@ Result<Simplified> search(const PointTask& task, const PointRecipe& recipe, cons
     once.max_triangles = towards.goals.max_triangles;
     once.max_vertices = towards.goals.max_vertices;
     SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale.refines_only), outlines));
+    facts[made.simplified.mesh.positions.data()] = made.facts;
     return std::move(made.simplified);
   };
   search.traits = recipe.traits;
+  search.insertion_stops = recipe.insertion_stops;
   search.most = [&] {
     const auto [least, most] = std::minmax_element(task.snapped.z.begin(), task.snapped.z.end());
     return 2 * (*most - *least);
   };
-  search.least = task.least();
-  return search_budget(options, search);
+  search.least = task.least(asked.quality.shape.any());
+  SCARP_TRY(auto&& found, search_budget(options, search));
+  const PointFacts of_found = facts[found.mesh.positions.data()];
+  return PointMesh{std::move(found), of_found};
 }
 
 }  // namespace
@@ -128,7 +135,8 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   const double width = domain.width;
   const PointLattice& lattice = snapped.lattice;
   const double area = lattice.step * lattice.cols * lattice.step * lattice.rows;
-  SCARP_RETURN_IF_ERROR(check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
+  SCARP_RETURN_IF_ERROR(
+      check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
   if (!points.boundary.empty()) {
     SCARP_TRY(domain, build_domain(snapped, snap_boundary(points, snapped)));
   } else if (options.boundary_length) {
@@ -149,14 +157,10 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   if (!options.boundary_length && points.boundary.empty() && points.lines.empty())
     result.hull_fit = find_hull_fit(snapped);
   const Outlines outlines = domain.outlines;
-  if (recipe.searches) {
-    SCARP_TRY(result.simplified, search(task, recipe, outlines));
-    return result;
-  }
-  SCARP_TRY(auto&& made, run_from(task, recipe, outlines));
+  SCARP_TRY(auto&& made, recipe.searches ? search(task, recipe, outlines) : run_from(task, recipe, outlines));
   result.simplified = std::move(made.simplified);
-  result.flat = made.flat;
-  result.loose = made.loose;
+  result.flat = made.facts.flat;
+  result.loose = made.facts.loose;
   return result;
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput,

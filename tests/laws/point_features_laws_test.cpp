@@ -147,6 +147,46 @@ RC_GTEST_PROP(point_features, have_the_shapes_that_were_asked_for, ()) {
   RC_ASSERT(small == shape.below);
 }
 
+RC_GTEST_PROP(point_features, keep_a_budget_with_lines_and_shapes, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  PointSet points = survey(random, *rc::gen::inRange(60, 300));
+  if (*rc::gen::arbitrary<bool>()) *add_lines(std::vector{dike(random, *rc::gen::arbitrary<bool>())}, points);
+  if (*rc::gen::arbitrary<bool>() &&
+      !cut_to_boundary(std::vector{star(random, 12, 180, 450, LineRole::kOuter)}, 1, points))
+    RC_FAIL("not cut");
+  PointOptions options{.float32_positions = *rc::gen::arbitrary<bool>(),
+                       .quality = {.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh)}};
+  options.quality.shape.min_angle = *rc::gen::element(0.0, 15.0, 28.0);
+  RC_PRE(!points.lines.empty() || options.quality.shape.any());
+  const std::uint64_t budget = *rc::gen::inRange<std::uint64_t>(20, 900);
+  if (*rc::gen::arbitrary<bool>()) {
+    options.max_triangles = budget;
+  } else {
+    options.max_vertices = budget;
+  }
+  if (*rc::gen::inRange(0, 3) == 0) options.max_error = *rc::gen::element(0.5, 10.0);
+  const auto made = simplify_points(points, options);
+  if (!made) {
+    RC_ASSERT(made.error().kind == ErrorKind::kUsage);
+    RC_ASSERT(made.error().message.find("too few") != std::string::npos);
+    return;
+  }
+  const Mesh& mesh = made->simplified.mesh;
+  RC_ASSERT((options.max_triangles ? mesh.triangle_count() : mesh.vertex_count()) <= budget);
+  const auto judged = *measure_points(points, mesh, DuplicatePolicy::kFirst);
+  RC_ASSERT(judged.is_sound());
+  RC_ASSERT(judged.uncovered == 0u);
+  RC_ASSERT(std::abs(judged.max_error - made->simplified.measurement.max_error) < 1e-9);
+  // The mesh of that error without a budget is the same, with its lines.
+  if (made->simplified.stop != StopReason::kMaxError) return;
+  RC_ASSERT(judged.max_error <= *options.max_error + 1e-9);
+  options.max_triangles = options.max_vertices = std::nullopt;
+  const auto alone = simplify_points(points, options);
+  if (!alone) RC_FAIL(alone.error().message);
+  if (alone->simplified.mesh.positions == mesh.positions)
+    RC_ASSERT(alone->flat == made->flat && alone->loose == made->loose);
+}
+
 RC_GTEST_PROP(point_features, keep_the_promise_in_float32, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   PointSet points = survey(random, *rc::gen::inRange(60, 300));

@@ -60,6 +60,7 @@ RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
   RC_ASSERT(points.size() == given - in_lake + 8 && points.lines.size() == 2);
   PointOptions options{.max_error = *rc::gen::element(0.5, 4.0), .float32_positions = false};
   options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  if (*rc::gen::arbitrary<bool>()) options.max_error = std::nullopt, options.max_triangles = 200;
   const auto made = simplify_points(points, options);
   RC_ASSERT(made.has_value());
   // Places in the lake, between shore and island, and on land.
@@ -73,7 +74,9 @@ RC_GTEST_PROP(point_lakes, are_level_and_islands_stay_land, ()) {
   }
   const auto [missed, uneven] = testing::judge_by_brute_force(places, made->simplified.mesh);
   RC_ASSERT(missed == 0 && uneven < 1e-9);
-  RC_ASSERT(testing::judge_by_brute_force(points, made->simplified.mesh).second <= *options.max_error + 1e-6);
+  RC_ASSERT(testing::judge_by_brute_force(points, made->simplified.mesh).second <=
+            options.max_error.value_or(made->simplified.measurement.max_error) + 1e-6);
+  if (options.max_triangles) RC_ASSERT(made->simplified.mesh.triangle_count() <= *options.max_triangles);
 }
 
 RC_GTEST_PROP(point_lakes, have_the_percentile_of_their_shore, ()) {

@@ -66,8 +66,7 @@ succeeds "$scarp" simplify degrees.gpkg exact.obj -e "$least"
 gdal_contour -q -amin ELEV -p -i 200 dem.tif bands.gpkg -f GPKG
 refuses 2 "holds polygons, not points or lines" "$scarp" simplify bands.gpkg x.glb -e 5
 refuses 2 "not a point or a line: if their rings are contours, make lines of them first" "$scarp" simplify bands.gpkg x.glb -e 5 --layer contour
-refuses 1 "--max-triangles cannot be combined with lines, and contours.gpkg holds them" \
-  "$scarp" simplify contours.gpkg x.glb -t 1000
+refuses 1 "the lines and the outline of the points alone need" "$scarp" simplify contours.gpkg x.glb -t 9
 [ ! -e x.glb ] || fail "a refused run left a file"
 
 # Contours of a mesh: GDAL reads them, and their points lie on the mesh at their height.

@@ -62,7 +62,9 @@ succeeds "$scarp" simplify survey.csv far.2dm -e 0.5 --water far.geojson
 grep -q "1 lake of --water beyond the points: it changes nothing" "$logs/err" || fail "no warning of a lake elsewhere"
 cmp <(grep -E '^(ND|E3T)' far.2dm) <(grep -E '^(ND|E3T)' plain.2dm) || fail "a lake elsewhere changes the mesh"
 refuses 1 "--water flats is for rasters" "$scarp" simplify survey.csv x.2dm -e 0.5 --water flats=50
-refuses 1 "cannot be combined with --water" "$scarp" simplify survey.csv x.2dm -t 500 --water lake.geojson
+succeeds "$scarp" simplify survey.csv x.2dm -t 500 --water lake.geojson
+[ "$(grep -c ^E3T x.2dm)" -le 500 ] || fail "a budget with a lake is not kept"
+rm x.2dm
 refuses 1 "cannot be combined with --water" "$scarp" simplify survey.csv x.2dm -e 1 --boundary concave:50 --water lake.geojson
 refuses 2 "no shore among the points" "$scarp" simplify survey.csv x.2dm -e 1 --water all.geojson
 python3 - <<'PY'

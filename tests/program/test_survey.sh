@@ -61,7 +61,11 @@ succeeds "$scarp" simplify survey.csv wide.glb -e 1 --boundary wide.geojson
 grep -q '1 corner of --boundary lie up to 60' "$logs/err" || fail "no warning of a corner beyond the points"
 refuses 2 "needs polygons" "$scarp" simplify survey.csv x.glb -e 1 --boundary dike.geojson
 refuses 2 "no point lies within --boundary far.geojson" "$scarp" simplify survey.csv x.glb -e 1 --boundary far.geojson
-refuses 1 "cannot be combined with --breaklines" "$scarp" simplify survey.csv x.glb -t 500 --breaklines dike.geojson
+for effort in fast normal high; do
+  succeeds "$scarp" simplify survey.csv dike.glb -t 1500 --breaklines dike.geojson --effort $effort --report dike.json --overwrite
+  holds "$(count dike.json) <= 1500 && $(count dike.json) > 1400" || fail "a budget with lines: $(count dike.json)"
+done
+refuses 1 "the lines and the outline of the points alone need" "$scarp" simplify survey.csv x.glb -t 9 --breaklines dike.geojson
 
 # The surface as a raster.
 succeeds "$scarp" simplify survey.csv dem.tif -e 1 --cell-size 10 -q
@@ -111,7 +115,8 @@ shape = json.load(open("shape.json"))["shape"]
 assert shape["longest_edge"] <= 90 and shape["below"] < 20, shape
 PY
 done
-refuses 1 "without a budget" "$scarp" simplify survey.csv x.glb -t 500 --min-angle 20
+succeeds "$scarp" simplify survey.csv shape.glb -t 1500 --min-angle 20 --report shape.json --overwrite
+holds "$(count shape.json) <= 1500 && $(count shape.json) > 1400 && $(json shape.json shape below) <= 4" || fail "a budget with angles: $(count shape.json)"
 
 # Outliers are dropped on request, and the judge remembers.
 { cat survey.csv; printf '500100.5,4649100.5,900\n500300.5,4649300.5,-200\n'; } >birds.csv

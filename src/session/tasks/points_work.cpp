@@ -275,19 +275,13 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   SCARP_TRY(outcome.cut, cut_to_boundary(given, end_option(stated), policy, tolerance_along_boundary(plan, points),
                                          runner.progress, points));
   outcome.points = std::move(points);
-  if (!outcome.points.lines.empty()) {
+  if (!outcome.points.lines.empty() && boundary.length) {
     const auto option = given.first_of({kWater, kBreaklines});
     const std::string lines = option ? std::string(name_of(*option))
                                      : fmt::format("lines, and {} holds them", shell_word(base_name(given.input())));
-    if (const auto budget = given.first_of({kMaxTriangles, kMaxPoints}))
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} cannot be combined with {}: lines need vertices of their own, beyond "
-                              "any budget; ask for an error with -e",
-                              *budget, lines));
-    if (boundary.length)
-      return fail(ErrorKind::kUsage, fmt::format("{} {} cannot be combined with {}: it may take away what lines cross; "
-                                                 "leave it out",
-                                                 kBoundary, *given[kBoundary], lines));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} cannot be combined with {}: it may take away what lines cross; leave it out",
+                            kBoundary, *given[kBoundary], lines));
   }
   SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
   if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
