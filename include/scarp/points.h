@@ -145,7 +145,8 @@ struct PointOptions {
   Quality quality = {};
   /// |mesh − z| <= tolerance at every point, in addition to max_error. One tolerance for each point, at least 0;
   /// +infinity: none. For points at one place, the tolerance of the point that counts is used; with kMean, that of the
-  /// first. Needs max_error and no budget. Borrowed. DEFAULT: empty.
+  /// first. Needs max_error. With a budget, all bounds are multiplied by Simplified::tolerance_factor. Borrowed.
+  /// DEFAULT: empty.
   std::span<const float> tolerances = {};
   Run run = {};  ///< threads, progress, and a time limit
 };
@@ -175,8 +176,8 @@ struct PointOptions {
 /// dropped as a duplicate. This holds at the point's given coordinates, for the positions stored in the mesh. Vertices
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
 /// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; a boundary_length not above
-/// 0, or with lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or with a
-/// budget; the dominant order. Fails with kInput for lines that meet at different
+/// 0, or with lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or
+/// without a max_error; the dominant order. Fails with kInput for lines that meet at different
 /// heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
 /// beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30 of the extent (the message
 /// names these points and the far point that makes the extent so large). Fails with kPromise if float32 positions

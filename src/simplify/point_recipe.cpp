@@ -39,8 +39,7 @@ Result<void> check_lines(const PointSet& points, const PointOptions& options) {
 
 Result<void> check_tolerances(const PointSet& points, const PointOptions& options) {
   if (options.tolerances.empty()) return {};
-  if (!options.max_error || options.max_triangles || options.max_vertices)
-    return fail(ErrorKind::kUsage, "tolerances of points need a max error, without a budget");
+  if (!options.max_error) return fail(ErrorKind::kUsage, "tolerances of points need a max error");
   const bool are_valid =
       options.tolerances.size() == points.size() &&
       std::all_of(options.tolerances.begin(), options.tolerances.end(), [](float bound) { return bound >= 0; });
@@ -80,7 +79,7 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool
       traits(traits_of(effort)),
       aims(asked.max_error.value_or(0), largest),
       removes(traits.fits && (!asked.max_error || aims.is_open())),
-      insertion_stops(points.lines.empty() && !asked.quality.shape.any()),
+      insertion_stops(points.lines.empty() && !asked.quality.shape.any() && asked.tolerances.empty()),
       searches((removes || !insertion_stops) && (asked.max_triangles || asked.max_vertices)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
       removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),

@@ -14,6 +14,7 @@
 
 #include "grid/far_points.h"
 #include "grid/snapped_points.h"
+#include "measure/point_judge.h"
 #include "pieces/checks.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
@@ -91,11 +92,31 @@ Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, con
   return run_points(task, recipe, std::move(domain));
 }
 
-/// Finds the mesh of a budget by runs for several errors.
+/// Judges a mesh by tolerances that were multiplied for it: the least factor that all errors keep.
+Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simplified& made) {
+  double factor = 0;
+  MeasureOptions judge;
+  judge.run.threads = asked.run.threads;
+  judge.inlets = asked.boundary_length.has_value();
+  judge.tolerance = asked.tolerances;
+  judge.on_row = [&](int, std::span<const float> errors) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const double bound = std::min(*asked.max_error, double{asked.tolerances[i]}), error = std::abs(double{errors[i]});
+      if (error > 0) factor = std::max(factor, error / bound);  // not NaN
+    }
+  };
+  SCARP_TRY(made.measurement, judge::judge_points(task.points, task.snapped, made.mesh, judge));
+  made.judged_max_error = factor * (1 + 0x1p-22);  // errors are float32
+  made.tolerance_factor = std::max(1.0, made.judged_max_error);
+  return {};
+}
+
+/// Finds the mesh of a budget by runs for several errors or, with tolerances, for several factors of all bounds.
 Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
   const PointOptions& asked = recipe.options;
   SimplifyOptions options;
   options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices};
+  options.tolerances.values = asked.tolerances;
   options.quality = asked.quality;
   options.run = asked.run;
   // Facts of the mesh whose positions lie at this address.
@@ -106,7 +127,13 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     once.max_error = towards.goals.max_error;
     once.max_triangles = towards.goals.max_triangles;
     once.max_vertices = towards.goals.max_vertices;
+    std::vector<float> tolerances;
+    for (const float bound : asked.tolerances) tolerances.push_back(static_cast<float>(scale.factor * double{bound}));
+    once.tolerances = tolerances;
     SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale.refines_only), outlines));
+    if (!tolerances.empty()) {
+      SCARP_RETURN_IF_ERROR(judge_factor(task, asked, made.simplified));
+    }
     facts[made.simplified.mesh.positions.data()] = made.facts;
     return std::move(made.simplified);
   };
@@ -114,7 +141,11 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
   search.insertion_stops = recipe.insertion_stops;
   search.most = [&] {
     const auto [least, most] = std::minmax_element(task.snapped.z.begin(), task.snapped.z.end());
-    return 2 * (*most - *least);
+    double bound = asked.tolerances.empty() ? 1 : asked.max_error.value();
+    for (const float tolerance : asked.tolerances) {
+      if (tolerance > 0) bound = std::min(bound, double{tolerance});
+    }
+    return 2 * (*most - *least) / (bound > 0 ? bound : 1);
   };
   search.least = task.least(asked.quality.shape.any());
   SCARP_TRY(auto&& found, search_budget(options, search));

@@ -76,6 +76,32 @@ RC_GTEST_PROP(point_tolerances, hold_at_every_point_by_brute_force, ()) {
   RC_ASSERT(measure_points(points, made->simplified.mesh, DuplicatePolicy::kFirst, judge)->over_tolerance == 0u);
 }
 
+RC_GTEST_PROP(point_tolerances, times_their_factor_hold_within_a_budget, ()) {
+  PointSet points = any_points(90);
+  const std::vector<float> tolerances = any_tolerances(points.size());
+  const std::uint64_t budget = *rc::gen::inRange<std::uint64_t>(8, 150);
+  PointOptions options{.max_error = *rc::gen::element(0.5, 4.0, 20.0),
+                       .max_triangles = budget,
+                       .float32_positions = false,
+                       .tolerances = tolerances};
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  const auto made = simplify_points(points, options);
+  if (!made) RC_DISCARD("no surface, or too few triangles");
+  const Simplified& simplified = made->simplified;
+  RC_ASSERT(simplified.mesh.triangle_count() <= budget);
+  RC_ASSERT(simplified.tolerance_factor >= 1);
+  RC_ASSERT(simplified.stop != StopReason::kMaxError || simplified.tolerance_factor == 1);
+  for (const std::size_t i : firsts(points)) {
+    const double bound = std::min(*options.max_error, double{tolerances[i]});
+    const double error = testing::judge_by_brute_force(only(points, i), simplified.mesh).second;
+    RC_ASSERT(error <= simplified.tolerance_factor * bound + 1e-6);
+  }
+  options.max_triangles = std::nullopt;
+  const auto whole = simplify_points(points, options);
+  // A budget with room for the tolerances changes nothing.
+  if (whole && whole->simplified.mesh.triangle_count() + 1 < budget) RC_ASSERT(simplified.tolerance_factor == 1);
+}
+
 RC_GTEST_PROP(point_tolerances, at_or_above_the_max_error_change_no_byte, ()) {
   const PointSet points = any_points(120);
   std::vector<float> tolerances(points.size());
@@ -206,9 +232,7 @@ TEST(point_tolerances, that_do_not_fit_are_refused) {
   const char* const invalid = "tolerances of points: give one for each, at least 0";
   for (const auto* tolerances : {&few, &negative, &nan})
     EXPECT_EQ(refused({.max_error = 2.0, .tolerances = *tolerances}), invalid);
-  const char* const budget = "tolerances of points need a max error, without a budget";
-  EXPECT_EQ(refused({.max_triangles = 9, .tolerances = fine}), budget);
-  EXPECT_EQ(refused({.max_error = 2.0, .max_vertices = 9, .tolerances = fine}), budget);
+  EXPECT_EQ(refused({.max_triangles = 9, .tolerances = fine}), "tolerances of points need a max error");
   MeasureOptions judge;
   judge.tolerance = few;
   const auto made = *simplify_points(points, {.max_error = 2.0, .tolerances = fine});

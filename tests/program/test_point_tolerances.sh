@@ -110,7 +110,9 @@ succeeds "$scarp" simplify survey.csv away.2dm -e 2 --roi away.geojson=0.1
 grep -q "lowers the error of no point: none lies in it" "$logs/err" || fail "no warning of a region without points"
 cmp <(grep -E '^(ND|E3T)' away.2dm) <(grep -E '^(ND|E3T)' plain.2dm) || fail "a region without points changes the mesh"
 refuses 1 "--roi of points needs --max-error, the error of all others" "$scarp" simplify survey.csv x.glb --roi site.geojson=0.1
-refuses 1 "--tolerance of points needs" "$scarp" simplify survey.csv x.glb -e 2 -t 500 --tolerance accuracy.tif
+succeeds "$scarp" simplify survey.csv budget.2dm -e 0.2 -t 500 --tolerance accuracy.tif --report budget.json
+[ "$(json budget.json triangles)" -le 500 ] || fail "a budget with tolerances: $(json budget.json triangles)"
+grep -q "points, all kept times $(printf %.2s "$(json budget.json tolerance_factor)")" "$logs/out" || fail "no factor of the tolerances"
 refuses 2 "gdalwarp -t_srs EPSG:32616 elsewhere.tif" "$scarp" simplify survey.csv x.glb -e 2 --tolerance elsewhere.tif
 succeeds "$scarp" simplify survey.csv stack.2dm -e 2 --tolerance stack.tif
 grep -q 'stack.tif: has 2 bands, and its first alone is taken for the values' "$logs/err" || fail "a band is chosen without a word"

@@ -144,6 +144,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
     report["strategy"]["roi"] = plan.given.all(OptionId::kRoi);
     report["strategy"]["falloff"] = or_null(plan.given[OptionId::kFalloff]);
     report["with_tolerance"] = outcome.with_tolerance;
+    report["tolerance_factor"] = outcome.simplified.tolerance_factor;
   }
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
@@ -212,7 +213,11 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                                                 describe_place(outcome.points, measured), describe_asked(outcome)));
   text += summary_line("RMSE", format_number(measured.rmse));
   if (outcome.with_tolerance > 0)
-    text += summary_line("tolerances", format_plural(outcome.with_tolerance, "point") + ", all kept");
+    text +=
+        summary_line("tolerances", format_plural(outcome.with_tolerance, "point") +
+                                       (outcome.simplified.tolerance_factor > 1
+                                            ? ", all kept times " + format_number(outcome.simplified.tolerance_factor)
+                                            : ", all kept"));
   text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
   return text + seconds_line(outcome) +
          describe_end(plan, outcome, measured.max_error == 0 ? "Reproduced every point" : nullptr);

@@ -244,11 +244,8 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
                               PointsOutcome& outcome) {
   const Clock::time_point start = Clock::now();
   SCARP_TRY(const auto& given, boundary_of_cutline(stated));
-  if (const auto bounds = find_tolerance(given);
-      bounds && (!given[kMaxError] || given[kMaxTriangles] || given[kMaxPoints]))
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} of points needs {}, the error of all others, and no budget such as -t or -p", *bounds,
-                            kMaxError));
+  if (const auto bounds = find_tolerance(given); bounds && !given[kMaxError])
+    return fail(ErrorKind::kUsage, fmt::format("{} of points needs {}, the error of all others", *bounds, kMaxError));
   if (!given.first_of({kMaxError, kMaxTriangles, kMaxPoints}))
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
