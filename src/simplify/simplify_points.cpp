@@ -7,7 +7,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <map>
 #include <new>
 #include <utility>
 #include <vector>
@@ -119,8 +118,8 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
   options.tolerances.values = asked.tolerances;
   options.quality = asked.quality;
   options.run = asked.run;
-  // Facts of the mesh whose positions lie at this address.
-  std::map<const double*, PointFacts> facts;
+  // The address of a run's positions, and its facts; a later run may reuse the address of a worse mesh.
+  std::vector<std::pair<const double*, PointFacts>> facts;
   BudgetTask search;
   search.run = [&](const SimplifyOptions& towards, const Scale& scale) -> Result<Simplified> {
     PointOptions once = asked;
@@ -134,7 +133,7 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     if (!tolerances.empty()) {
       SCARP_RETURN_IF_ERROR(judge_factor(task, asked, made.simplified));
     }
-    facts[made.simplified.mesh.positions.data()] = made.facts;
+    facts.emplace_back(made.simplified.mesh.positions.data(), made.facts);
     return std::move(made.simplified);
   };
   search.traits = recipe.traits;
@@ -149,8 +148,9 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
   };
   search.least = task.least(asked.quality.shape.any());
   SCARP_TRY(auto&& found, search_budget(options, search));
-  const PointFacts of_found = facts[found.mesh.positions.data()];
-  return PointMesh{std::move(found), of_found};
+  auto of_found = facts.rbegin();
+  while (of_found->first != found.mesh.positions.data()) ++of_found;
+  return PointMesh{std::move(found), of_found->second};
 }
 
 }  // namespace
