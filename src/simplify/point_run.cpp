@@ -35,7 +35,7 @@ class PointRun {
         lines_(task.lines),
         budget_(options_.max_triangles, options_.max_vertices),
         bound_(options_.max_error.value_or(0)),
-        least_(task.least(recipe.options.quality.shape.any())),
+        least_(task.least(recipe.options)),
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
         // Vertices for shapes may be a step from an edge that rounding moves by half a step.
@@ -408,7 +408,7 @@ class PointRun {
   const PointLines& lines_;
   Budget budget_;
   double bound_;
-  const char* least_;
+  std::string least_;
   double width_;
   bool fits_;           ///< vertices are removed
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds

@@ -3,8 +3,10 @@
 // judged.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "grid/snapped_points.h"
 #include "refine/point_lines.h"
@@ -23,10 +25,14 @@ struct PointTask {
   const PointLines& lines;
   PointSteps steps;
   /// The subject of the error for a budget that the least mesh exceeds.
-  const char* least(bool has_shapes) const {
-    if (!points.lines.empty()) return "the lines and the outline of the points alone need";
-    if (has_shapes) return "the angles and edges alone need";
-    return points.boundary.empty() ? "the hull of the points alone needs" : "the boundary alone needs";
+  std::string least(const PointOptions& options) const {
+    const bool has_zeros =
+        std::find(options.tolerances.begin(), options.tolerances.end(), 0) != options.tolerances.end();
+    const std::string zeros = has_zeros ? " and the points with a tolerance of 0" : "";
+    if (!points.lines.empty()) return "the lines and the outline of the points" + zeros + " alone need";
+    if (options.quality.shape.any()) return "the angles and edges" + zeros + " alone need";
+    const char* const outline = points.boundary.empty() ? "the hull of the points" : "the boundary";
+    return outline + zeros + (has_zeros ? " alone need" : " alone needs");
   }
   double width;  ///< width of the hull: ScatteredDomain::width
 };

@@ -146,7 +146,7 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     }
     return 2 * (*most - *least) / (bound > 0 ? bound : 1);
   };
-  search.least = task.least(asked.quality.shape.any());
+  search.least = task.least(asked);
   SCARP_TRY(auto&& found, search_budget(options, search));
   auto of_found = facts.rbegin();
   while (of_found->first != found.mesh.positions.data()) ++of_found;

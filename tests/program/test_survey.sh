@@ -73,6 +73,8 @@ succeeds "$scarp" info dem.tif --no-suggest
 grep -Eq '10[01] columns x 8[01] rows' "$logs/out" || fail "the size of the raster: $(cat "$logs/out")"
 succeeds "$scarp" simplify survey.csv spaced.tif -e 0 --effort fast
 grep -q 'cell size  *10$' "$logs/out" || fail "no cell size by the points' distance: $(cat "$logs/out")"
+refuses 1 "no cell of 3000 has its centre on the surface" "$scarp" simplify survey.csv x.tif -e 1 --cell-size 3000
+refuses 1 "no cell of 3000 has its centre on the surface" "$scarp" tile survey.csv x --cell-size 3000
 # Tiles of points are those of that raster.
 succeeds "$scarp" tile survey.csv at_once -e 1 --cells 32 --report at_once.json
 grep -q 'points  *[0-9,]*, as a raster of cells 10 wide' "$logs/out" || fail "no word on the points: $(cat "$logs/out")"

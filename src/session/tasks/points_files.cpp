@@ -34,8 +34,9 @@ Result<Cells> cells_over(const std::vector<double>& values, double size) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double first = std::floor(*least / size), last = std::ceil(*most / size);
   if (!(last - first < kMostCells))
-    return fail(ErrorKind::kUsage, fmt::format("{} {:g} gives a raster of {:.3g} columns or rows: choose larger cells",
-                                               kCellSize, size, last - first));
+    return fail(ErrorKind::kUsage,
+                fmt::format("cells of {:g} give a raster of {:.3g} columns or rows: choose larger ones with {}", size,
+                            last - first, kCellSize));
   return Cells{first * size, static_cast<int>(std::max(last - first, 2.0))};
 }
 
@@ -49,8 +50,7 @@ void place_in_file(const PointSet& points, const std::array<double, 2>& corner, 
   info.has_georeference = true;
 }
 
-}  // namespace
-
+/// The mean distance of neighbouring points, rounded down to 1, 2 or 5 times a power of 10.
 double find_cell_size(const PointsOutcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
   double area = 0;
@@ -59,18 +59,24 @@ double find_cell_size(const PointsOutcome& outcome) {
                c = mesh.vertex(mesh.triangles[3 * t + 2]);
     area += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
   }
-  const double spacing = std::sqrt(area / static_cast<double>(outcome.points.size()));
-  const double power = std::pow(10, std::floor(std::log10(spacing)));
-  return power * (spacing >= 5 * power ? 5 : spacing >= 2 * power ? 2 : 1);
+  const Extent extent = extent_of(outcome.points);
+  const double length = std::hypot(extent.high[0] - extent.low[0], extent.high[1] - extent.low[1]);
+  const auto count = static_cast<double>(outcome.points.size());
+  const double distance = std::max(std::sqrt(area / count), length / count);  // points may follow a line
+  const double power = std::pow(10, std::floor(std::log10(distance)));
+  return power * (distance >= 5 * power ? 5 : distance >= 2 * power ? 2 : 1);
 }
 
+/// The mesh's heights at the centres of cells, whose corners are multiples of `size`; NaN outside the mesh. REQUIRES:
+/// the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
 Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads) {
   const PointSet& points = outcome.points;
   SCARP_TRY(const auto& across, cells_over(points.x, size));
   SCARP_TRY(const auto& down, cells_over(points.y, size));
   if (double{1} * across.count * down.count > kMostCells)
-    return fail(ErrorKind::kUsage, fmt::format("{} {:g} gives a raster of {} x {} cells: choose larger ones", kCellSize,
-                                               size, across.count, down.count));
+    return fail(ErrorKind::kUsage,
+                fmt::format("cells of {:g} give a raster of {} x {} cells: choose larger ones with {}", size,
+                            across.count, down.count, kCellSize));
   const double north = down.first + down.count * size;
   OwnedHeightField field;
   field.cols = across.count;
@@ -83,8 +89,6 @@ Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, 
   SCARP_TRY(field.samples, resample(field, outcome.simplified.mesh, threads));
   return field;
 }
-
-namespace {
 
 Result<void> add_preview(const SimplifyPlan& plan, const PointsOutcome& outcome, std::vector<ReadyFile>& files) {
   constexpr double kPixels = 1400;
@@ -149,10 +153,23 @@ Result<void> encode_output(const SimplifyPlan& plan, const PointsOutcome& outcom
 
 Result<void> check_cell_size(const SimplifyPlan& plan, const GivenOptions& given) {
   if (plan.format.kind == OutputKind::kDem || !given.has(kCellSize)) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} is for rasters, and {} holds points: omit it, or choose a raster as OUTPUT, such as {}",
-                          kCellSize, shell_word(base_name(given.input())),
-                          shell_word(base_name(given.input()) + ".tif")));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} is for rasters, and {} holds points: omit it, or choose a raster as OUTPUT, such as {}",
+                  kCellSize, shell_word(base_name(given.input())), shell_word(base_name(given.input()) + ".tif")));
+}
+
+Result<OwnedHeightField> draw_surface(const SimplifyPlan& plan, PointsOutcome& outcome) {
+  const double size = plan.read.cell_size.value_or(find_cell_size(outcome));
+  outcome.cell_size = size;
+  SCARP_TRY(OwnedHeightField field, draw_raster(outcome, size, plan.simplify.run.threads));
+  const bool is_empty = std::all_of(field.samples.begin(), field.samples.end(), [](float z) { return std::isnan(z); });
+  if (is_empty)
+    return fail(ErrorKind::kUsage,
+                fmt::format("no cell of {:g} has its centre on the surface through the points: choose "
+                            "smaller ones with {}",
+                            size, kCellSize));
+  return field;
 }
 
 void collect_errors(const PointSet& points, std::vector<std::uint8_t>& file, MeasureOptions& options) {
@@ -175,8 +192,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runn
   if (added && plan.error_raster) added = add_errors(plan, runner, outcome, files);
   SCARP_RETURN_IF_ERROR(added);
   if (plan.format.kind == OutputKind::kDem) {
-    outcome.cell_size = plan.read.cell_size.value_or(find_cell_size(outcome));
-    SCARP_TRY(const auto& field, draw_raster(outcome, *outcome.cell_size, plan.simplify.run.threads));
+    SCARP_TRY(const auto& field, draw_surface(plan, outcome));
     SCARP_TRY(files.front().bytes,
               encode_raster({field.samples, field.cols, field.rows, &field.info}, plan.format.raster));
   }

@@ -12,11 +12,10 @@ namespace scarp::cli {
 
 /// Fails with kUsage for --cell-size without a raster as OUTPUT.
 Result<void> check_cell_size(const SimplifyPlan& plan, const GivenOptions& given);
-/// The default of --cell-size: the mean distance of neighbouring points, rounded down to 1, 2 or 5 times a power of 10.
-double find_cell_size(const PointsOutcome& outcome);
-/// The mesh's heights at the centres of cells, whose corners are multiples of `size`; NaN outside the mesh. REQUIRES:
-/// the mesh is where the points are. Fails with kUsage for more cells than a raster may have.
-Result<OwnedHeightField> draw_raster(const PointsOutcome& outcome, double size, int threads);
+/// The surface as a raster of cells of --cell-size, by default the mean distance of neighbouring points. Sets the
+/// outcome's cell size. REQUIRES: the mesh is where the points are. Fails with kUsage for too many cells, and if no
+/// cell has a height.
+Result<OwnedHeightField> draw_surface(const SimplifyPlan& plan, PointsOutcome& outcome);
 
 /// Encodes all files except the report, OUTPUT first, after closing the mesh into a solid on request.
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runner& runner, PointsOutcome& outcome);

@@ -51,8 +51,7 @@ Result<std::unique_ptr<PointsRaster>> PointsRaster::make(const GivenOptions& giv
   SimplifyPlan plan;
   SCARP_RETURN_IF_ERROR(make_points_mesh(asked, runner, plan, impl->outcome));
   PointsOutcome& outcome = impl->outcome;
-  outcome.cell_size = plan.read.cell_size.value_or(find_cell_size(outcome));
-  SCARP_TRY(impl->field, draw_raster(outcome, *outcome.cell_size, plan.simplify.run.threads));
+  SCARP_TRY(impl->field, draw_surface(plan, outcome));
   outcome.simplified.mesh = {};
   const OwnedHeightField& field = impl->field;
   impl->name = given.input();
@@ -79,9 +78,7 @@ std::uint64_t PointsRaster::count() const { return impl_->outcome.points.size();
 double PointsRaster::cell_size() const { return *impl_->outcome.cell_size; }
 const std::vector<std::string>& PointsRaster::warnings() const { return impl_->outcome.warnings; }
 
-Json describe(const PointsRaster& raster) {
-  return {{"count", raster.count()}, {"cell_size", raster.cell_size()}};
-}
+Json describe(const PointsRaster& raster) { return {{"count", raster.count()}, {"cell_size", raster.cell_size()}}; }
 
 std::string points_line(const PointsRaster& raster) {
   return fmt::format("  points         {}, as a raster of cells {} wide\n", format_count(raster.count()),

@@ -17,7 +17,7 @@ namespace scarp::cli {
 /// find the raster under the name of the first file.
 class PointsRaster {
  public:
-  /// Reads the points by their options. Fails like make_points_mesh() and draw_raster().
+  /// Reads the points by their options. Fails like make_points_mesh() and draw_surface().
   static Result<std::unique_ptr<PointsRaster>> make(const GivenOptions& given, const Runner& runner);
   ~PointsRaster();
 
