@@ -152,8 +152,8 @@ struct PointOptions {
 };
 
 /// Inserts scattered samples greedily (which section 2 of the 1995 paper only mentions), then removes vertices
-/// according to the effort, as on a raster. With a budget and an effort above fast, lines or goals for shapes, it
-/// searches for an error. The domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham
+/// according to the effort, as on a raster. With a budget and an effort above fast, lines, tolerances or goals
+/// for shapes, it searches for an error. The domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham
 /// et al. (2008); else the convex hull. The chi-shape begins as the Delaunay triangulation of all points. Triangles
 /// whose boundary edge exceeds boundary_length are removed, the longest edge first. A triangle is kept if its removal
 /// would split the domain or exclude a point, or if the domain's boundary would not remain a simple polygon. All
@@ -177,8 +177,7 @@ struct PointOptions {
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
 /// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; a boundary_length not above
 /// 0, or with lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or
-/// without a max_error; the dominant order. Fails with kInput for lines that meet at different
-/// heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
+/// without a max_error; the dominant order. Fails with kInput for lines that meet at different heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
 /// beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30 of the extent (the message
 /// names these points and the far point that makes the extent so large). Fails with kPromise if float32 positions
 /// cannot satisfy the bound, and with kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log

@@ -57,7 +57,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile dem.tif globe                             the raster's CRS names its vertical datum\n"
      "  scarp tile dem.tif globe.pmtiles                     all tiles in one file\n"
      "  scarp tile north.tif south.tif globe --effort high   a mosaic, in fewer triangles\n"
-     "  scarp tile ground.laz globe --class ground           points, which become a raster first\n"
+     "  scarp tile ground.laz globe --vertical egm96         points, which become a raster first\n"
      "  scarp tile dem.tif globe -e 2 --zoom 14              the finest level and its max error\n"
      "  scarp tile dem.tif globe --of 3dtiles                3D Tiles: tileset.json, subtrees, GLB files\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},

@@ -160,7 +160,7 @@ Result<void> check_cell_size(const SimplifyPlan& plan, const GivenOptions& given
 }
 
 Result<OwnedHeightField> draw_surface(const SimplifyPlan& plan, PointsOutcome& outcome) {
-  const double size = plan.read.cell_size.value_or(find_cell_size(outcome));
+  const double size = plan.read.cell_size ? *plan.read.cell_size : find_cell_size(outcome);
   outcome.cell_size = size;
   SCARP_TRY(OwnedHeightField field, draw_raster(outcome, size, plan.simplify.run.threads));
   const bool is_empty = std::all_of(field.samples.begin(), field.samples.end(), [](float z) { return std::isnan(z); });

@@ -29,7 +29,9 @@ void copy(OptionId id, const GivenOptions& from, GivenOptions& to) {
 }  // namespace
 
 struct PointsRaster::Impl {
-  PointsOutcome outcome;
+  std::uint64_t count = 0;
+  double cell_size = 0;
+  std::vector<std::string> warnings;
   OwnedHeightField field;
   LentRaster raster;
   std::string name;
@@ -49,10 +51,12 @@ Result<std::unique_ptr<PointsRaster>> PointsRaster::make(const GivenOptions& giv
   asked.set(kOf, "dem");
   auto impl = std::make_unique<Impl>();
   SimplifyPlan plan;
-  SCARP_RETURN_IF_ERROR(make_points_mesh(asked, runner, plan, impl->outcome));
-  PointsOutcome& outcome = impl->outcome;
+  PointsOutcome outcome;
+  SCARP_RETURN_IF_ERROR(make_points_mesh(asked, runner, plan, outcome));
   SCARP_TRY(impl->field, draw_surface(plan, outcome));
-  outcome.simplified.mesh = {};
+  impl->count = outcome.points.size();
+  impl->cell_size = *outcome.cell_size;
+  impl->warnings = std::move(outcome.warnings);
   const OwnedHeightField& field = impl->field;
   impl->name = given.input();
   impl->raster = {.samples = field.samples.data(),
@@ -74,9 +78,9 @@ GivenOptions PointsRaster::options(const GivenOptions& given) const {
   return asked;
 }
 
-std::uint64_t PointsRaster::count() const { return impl_->outcome.points.size(); }
-double PointsRaster::cell_size() const { return *impl_->outcome.cell_size; }
-const std::vector<std::string>& PointsRaster::warnings() const { return impl_->outcome.warnings; }
+std::uint64_t PointsRaster::count() const { return impl_->count; }
+double PointsRaster::cell_size() const { return impl_->cell_size; }
+const std::vector<std::string>& PointsRaster::warnings() const { return impl_->warnings; }
 
 Json describe(const PointsRaster& raster) { return {{"count", raster.count()}, {"cell_size", raster.cell_size()}}; }
 
