@@ -1,4 +1,5 @@
 // Quantized-mesh tiles, made on demand from a raster in degrees or in web Mercator.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -15,26 +16,29 @@ namespace {
 /// EPSG:3857: WGS 84's longitude and latitude on a sphere, in metres.
 constexpr double kRadius = 6378137, kRadians = std::numbers::pi / 180;
 
+/// Replaces all values by f of them, which is slow; rows repeat the value.
+void replace(std::span<double> values, auto&& f) {
+  double last = 0, result = f(0);
+  for (double& value : values) {
+    if (value != last) result = f(last = value);
+    value = result;
+  }
+}
+
 class MercatorOfDegrees final : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
-    bool has_all = true;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      x[k] *= kRadians * kRadius;
-      y[k] = kRadius * std::asinh(std::tan(y[k] * kRadians));
-      has_all = has_all && std::isfinite(y[k]);
-    }
-    return has_all;
+    for (double& value : x) value *= kRadians * kRadius;
+    replace(y, [](double degrees) { return kRadius * std::asinh(std::tan(degrees * kRadians)); });
+    return std::all_of(y.begin(), y.end(), [](double metres) { return std::isfinite(metres); });
   }
 };
 
 class DegreesOfMercator final : public PointTransform {
  public:
   bool apply(std::span<double> x, std::span<double> y) const override {
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      x[k] /= kRadians * kRadius;
-      y[k] = std::atan(std::sinh(y[k] / kRadius)) / kRadians;
-    }
+    for (double& value : x) value /= kRadians * kRadius;
+    replace(y, [](double metres) { return std::atan(std::sinh(metres / kRadius)) / kRadians; });
     return true;
   }
 };
@@ -45,6 +49,7 @@ struct Tiler {
   HeightField field;  ///< JavaScript's samples
   std::unique_ptr<NodeSource> nodes;
   PyramidPlan plan;
+  std::vector<std::vector<std::uint64_t>> lists;  ///< of all levels, once they are asked for
 };
 
 /// Like PyramidSettings; Field::geotransform is in degrees, or in metres of web Mercator.
@@ -137,11 +142,13 @@ Bytes* scarp_tiler_tile(const Tiler* tiler, double z, double x, double y, TileVi
   });
 }
 /// The tiles that have heights, and those through which clients reach them: pairs of column and row, as uint32.
-SCARP_EXPORT(scarp_tiler_list) Bytes* scarp_tiler_list(const Tiler* tiler, double level, TileView* out) {
+SCARP_EXPORT(scarp_tiler_list) Bytes* scarp_tiler_list(Tiler* tiler, double level, TileView* out) {
   return give<Bytes>([&]() -> Result<std::unique_ptr<Bytes>> {
-    SCARP_TRY(const auto& lists, scarp::find_tiles(tiler->plan, tiler->nodes.get(), {.threads = 1}));
+    if (tiler->lists.empty()) {
+      SCARP_TRY(tiler->lists, scarp::find_tiles(tiler->plan, tiler->nodes.get(), {.threads = 1}));
+    }
     std::vector<std::uint32_t> pairs;
-    for (const std::uint64_t tile : lists.at(static_cast<std::size_t>(level))) {
+    for (const std::uint64_t tile : tiler->lists.at(static_cast<std::size_t>(level))) {
       pairs.push_back(static_cast<std::uint32_t>(tile));
       pairs.push_back(static_cast<std::uint32_t>(tile >> 32));
     }
