@@ -103,11 +103,11 @@ class Files(unittest.TestCase):
     def test_files_are_the_program_s_to_the_byte(self):
         with tempfile.TemporaryDirectory() as folder:
             for ending, arguments, options in (
-                    ("glb", ["-e", "5"], {"max_error": 5}),
-                    ("obj", ["-e", "1%", "--effort", "high"], {"max_error": "1%", "effort": "high"}),
-                    ("ply", ["-t", "2000", "--normals"], {"max_triangles": 2000, "normals": True}),
-                    ("glb", ["-e", "5", "--compress"], {"max_error": 5, "compress": True}),
-                    ("vtu", ["-e", "5", "--min-angle", "20"], {"max_error": 5, "min_angle": 20})):
+                    ("glb", ["-e", "20"], {"max_error": 20}),
+                    ("obj", ["-e", "3%", "--effort", "high"], {"max_error": "3%", "effort": "high"}),
+                    ("ply", ["-t", "500", "--normals"], {"max_triangles": 500, "normals": True}),
+                    ("glb", ["-e", "20", "--compress"], {"max_error": 20, "compress": True}),
+                    ("vtu", ["-e", "20", "--min-angle", "20"], {"max_error": 20, "min_angle": 20})):
                 path = os.path.join(folder, "mesh." + ending)
                 self.by_program(DEM, path, *arguments)
                 with open(path, "rb") as file:

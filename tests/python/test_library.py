@@ -136,7 +136,7 @@ class Library(unittest.TestCase):
 
     def test_progress_is_told_and_what_it_raises_comes_out(self):
         told = []
-        scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=told.append)
+        scarp.simplify(plain_hills(150, 150), 0.5, effort="high", progress=told.append)
         self.assertTrue(told)
         self.assertTrue(all(0 <= step.fraction <= 1 and step.name for step in told))
         self.assertTrue(all(step.seconds_left is None or step.seconds_left >= 0 for step in told))
@@ -144,7 +144,7 @@ class Library(unittest.TestCase):
 
         # A progress function may itself simplify.
         inner = []
-        z = plain_hills(300, 300)
+        z = plain_hills(150, 150)
         outer = scarp.simplify(z, 0.5, effort="high", of="obj",
                                progress=lambda _: inner.append(scarp.simplify(plain_hills(30, 30), 5)))
         self.assertTrue(inner)
@@ -158,7 +158,7 @@ class Library(unittest.TestCase):
 
         for _ in range(3):
             with self.assertRaises(Own):
-                scarp.simplify(plain_hills(300, 300), 0.5, effort="high", progress=bad)
+                scarp.simplify(plain_hills(150, 150), 0.5, effort="high", progress=bad)
 
         # The exception is in no reference cycle.
         gc.collect()
@@ -277,7 +277,7 @@ class Library(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, b"", b""))
 
     def test_other_threads_run_meanwhile(self):
-        z = plain_hills(300, 300)
+        z = plain_hills(150, 150)
         count, stop = [0], threading.Event()
 
         def work():
