@@ -121,11 +121,14 @@ class PointRun {
     return {};
   }
 
-  /// Sorted: points that broke the bound after fitting, and vertices of lines, of which some chords may not be edges.
+  /// Sorted: points that broke the bound after fitting, vertices of lines, of which some chords may not be edges, and
+  /// vertices whose bounds leave nothing to fit.
   std::vector<std::uint32_t> fixed_points() const {
     std::vector<std::uint32_t> fixed = mended_;
     for (const std::uint32_t point : domain_.point_of) {
-      if (point != kNone && !lines_.empty() && lines_.on_lines()[point]) fixed.push_back(point);
+      if (point == kNone) continue;
+      const bool is_on_line = !lines_.empty() && lines_.on_lines()[point];
+      if (is_on_line || (!bounds_.empty() && PointAims(bounds_[point], recipe_.largest).fit <= 0)) fixed.push_back(point);
     }
     std::sort(fixed.begin(), fixed.end());
     return fixed;
