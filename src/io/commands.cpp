@@ -43,7 +43,8 @@ std::string rasterize_command(const std::string& file) {
 }
 
 std::string utf8_command(const std::string& encoding, const std::string& file) {
-  return fmt::format("iconv -f {} -t UTF-8 {} > {}", encoding, file_word(file), new_file(".csv"));
+  return fmt::format("iconv -f {} -t UTF-8 {} > {}", encoding, file_word(file),
+                     new_file(std::filesystem::path(file).extension().string()));
 }
 
 }  // namespace scarp

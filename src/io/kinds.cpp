@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload };
+enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload, kUtf8, kSaveAsText };
 
 struct KindRow {
   std::string_view magic;       ///< first bytes; empty: the name decides
@@ -38,6 +38,9 @@ constexpr std::array kKinds{
     KindRow{"\x28\xb5\x2f\xfd", " .zst ", "compressed by zstd", Way::kUnpack},
     KindRow{"7z\xbc\xaf", " .7z ", "a 7z archive", Way::kUnpack},
     KindRow{"Rar!", " .rar ", "a RAR archive", Way::kUnpack},
+    KindRow{"\xff\xfe", "", "text in UTF-16", Way::kUtf8},
+    KindRow{"\xfe\xff", "", "text in UTF-16", Way::kUtf8},
+    KindRow{"AutoCAD Binary DXF", "", "a binary DXF", Way::kSaveAsText},
     KindRow{"version https://git-lfs", "", "a pointer of Git LFS in place of the file", Way::kFetch},
     KindRow{"<!DOCTYPE html", "", "a web page in place of the file", Way::kDownload},
     KindRow{"<!doctype html", "", "a web page in place of the file", Way::kDownload},
@@ -137,6 +140,10 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
       return tell(unpack(path, extension));
     case Way::kFetch:
       return tell("fetch the file first (git lfs pull)");
+    case Way::kUtf8:
+      return tell(fmt::format("make UTF-8 of it ({})", utf8_command("UTF-16", path)));
+    case Way::kSaveAsText:
+      return tell("save it as a DXF in text (ASCII)");
     case Way::kDownload:
       break;
   }

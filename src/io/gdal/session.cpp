@@ -60,8 +60,11 @@ void start_gdal_once() {
   });
 }
 
-/// One line without a final full stop.
+/// One line without a final full stop, and without the place in GDAL's sources ("./ogr/file.cpp, 949: ").
 std::string tidy(std::string text) {
+  const std::size_t place = text.starts_with("./") ? text.find(".cpp, ") : text.npos;
+  if (const std::size_t colon = text.find(": ", place); place != text.npos && colon != text.npos)
+    text.erase(0, colon + 2);
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
   return text;
