@@ -307,7 +307,8 @@ void expect_finds_planted(const TileGrid& grid) {
   ASSERT_TRUE(good.check().holds());
   const TileId id = good.inner_tile();
   const std::string name = tile_name(TileFormat::kQuantizedMesh, id);
-  for (const Planted& fault : kPlanted) {
+  for (std::size_t k = 0; k < std::size(kPlanted); k += testing::kIsSanitized ? 3 : 1) {
+    const Planted& fault = kPlanted[k];
     Made made = good;
     made.options.nodes.source = &made.land;
     change(made.bytes_of(id), fault.how);

@@ -202,7 +202,8 @@ TEST(tile_source_laws, above_the_blocks_the_source_error_bounds_that_of_all_samp
   for (const bool is_squeezed : {false, true}) {
     if (testing::kIsSanitized && !is_squeezed) continue;
     const Land land(5, 10.013, 0.0537, is_squeezed, false, true, false);
-    PyramidPlan plan = plan_of(9, Effort::kFast);
+    constexpr int kFinest = 8;
+    PyramidPlan plan = plan_of(kFinest, Effort::kFast);
     plan.covered = {9, 40, 18, 49};
     Kept kept;
     const auto report = make_pyramid(plan, land.source(), kept, {.threads = 2});
@@ -213,7 +214,7 @@ TEST(tile_source_laws, above_the_blocks_the_source_error_bounds_that_of_all_samp
       double& level = largest[static_cast<std::size_t>(z)];
       level = std::max(level, tile.source_error);
       if (z > plan.block_level) continue;
-      const double error = brute_force(tile, 16 << (9 - z), land);
+      const double error = brute_force(tile, 16 << (kFinest - z), land);
       if (z == plan.block_level) {
         EXPECT_NEAR(error, tile.source_error, allowance(is_squeezed));
       } else {
