@@ -222,6 +222,19 @@ RC_GTEST_PROP(point_tolerances, of_regions_grow_from_polygons_holes_and_lines, (
   RC_ASSERT(found.size() == regions.size());
 }
 
+TEST(point_tolerances, of_0_keep_the_heights_of_their_vertices_where_vertices_move) {
+  PointSet points;
+  points.x = {500777.7, 500859.43, 500965.75, 500758.58, 500609.04, 500794.02};
+  points.y = {4649425.14, 4649576.99, 4649125.41, 4649317.41, 4649425.14, 4649449.13};
+  points.z = {-26.2, 39.3, 47.3, 25.2, 27.6, -11.2};
+  const std::vector<float> tolerances = {0, kNoBound, 2, 9, 0, 9};
+  const auto made = simplify_points(
+      points,
+      {.max_error = 20.0, .float32_positions = false, .quality = {.effort = Effort::kMax}, .tolerances = tolerances});
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_LE(testing::judge_by_brute_force(only(points, 0), made->simplified.mesh).second, 1e-6);
+}
+
 TEST(point_tolerances, that_do_not_fit_are_refused) {
   const PointSet points = testing::random_points(1, 20, Scatter::kUtm, Heights::kReal);
   const std::vector<float> few(19, 1.0f), negative(20, -1.0f), nan(20, std::nanf("")), fine(20, 1.0f);
