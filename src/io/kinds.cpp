@@ -14,7 +14,7 @@
 namespace scarp {
 namespace {
 
-enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload, kUtf8, kSaveAsText };
+enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload, kSaveAsText };
 
 struct KindRow {
   std::string_view magic;       ///< first bytes; empty: the name decides
@@ -38,8 +38,6 @@ constexpr std::array kKinds{
     KindRow{"\x28\xb5\x2f\xfd", " .zst ", "compressed by zstd", Way::kUnpack},
     KindRow{"7z\xbc\xaf", " .7z ", "a 7z archive", Way::kUnpack},
     KindRow{"Rar!", " .rar ", "a RAR archive", Way::kUnpack},
-    KindRow{"\xff\xfe", "", "text in UTF-16", Way::kUtf8},
-    KindRow{"\xfe\xff", "", "text in UTF-16", Way::kUtf8},
     KindRow{"AutoCAD Binary DXF", "", "a binary DXF", Way::kSaveAsText},
     KindRow{"version https://git-lfs", "", "a pointer of Git LFS in place of the file", Way::kFetch},
     KindRow{"<!DOCTYPE html", "", "a web page in place of the file", Way::kDownload},
@@ -67,6 +65,13 @@ std::string find_mesh_title(std::string_view head, const std::string& extension)
   const auto named = extension.empty() ? std::nullopt : find_mesh_format(extension);
   const bool is_mesh = named && traits_of(*named).is_read && extension.substr(1) != traits_of(*named).shared;
   return is_mesh ? traits_of(*named).title : "";
+}
+
+/// True for UTF-16 with its mark and an ASCII character. Heights of -2, big-endian, begin like the mark.
+bool is_wide_text(std::string_view head) {
+  if (head.size() < 4) return false;
+  return (head.starts_with("\xff\xfe") && head[2] != 0 && head[3] == 0) ||
+         (head.starts_with("\xfe\xff") && head[2] == 0 && head[3] != 0);
 }
 
 std::string through_pdal(const std::string& path) {
@@ -112,6 +117,7 @@ std::string unpack(const std::string& path, const std::string& extension) {
 
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name) {
   const std::string extension = lowered(std::filesystem::path(path).extension().string());
+  if (is_wide_text(head)) return fmt::format("text in UTF-16: make UTF-8 of it ({})", utf8_command("UTF-16", path));
   const KindRow* row = find_kind(head, by_name ? extension : "");
   if (row == nullptr) {
     const std::string title = find_mesh_title(head, by_name ? extension : "");
@@ -140,8 +146,6 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
       return tell(unpack(path, extension));
     case Way::kFetch:
       return tell("fetch the file first (git lfs pull)");
-    case Way::kUtf8:
-      return tell(fmt::format("make UTF-8 of it ({})", utf8_command("UTF-16", path)));
     case Way::kSaveAsText:
       return tell("save it as a DXF in text (ASCII)");
     case Way::kDownload:
