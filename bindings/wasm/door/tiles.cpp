@@ -49,7 +49,7 @@ struct Tiler {
   HeightField field;  ///< JavaScript's samples
   std::unique_ptr<NodeSource> nodes;
   PyramidPlan plan;
-  std::vector<std::vector<std::uint64_t>> lists;  ///< of all levels, once they are asked for
+  std::vector<std::vector<std::uint64_t>> lists;  ///< by level; found on the first request
 };
 
 /// Like PyramidSettings; Field::geotransform is in degrees, or in metres of web Mercator.
