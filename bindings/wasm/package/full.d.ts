@@ -52,7 +52,8 @@ export interface LayerJson {
   available: { startX: number; startY: number; endX: number; endY: number }[][];
 }
 export interface Tiler extends Disposable {}
-/** Terrain tiles for globes, made on request from heights in metres above the ellipsoid. */
+/** Terrain tiles for globes, made on request from heights in metres above the ellipsoid. NaN becomes `background`, as
+ * with the program's `--nodata-policy background`; by default the program fills small voids. */
 export class Tiler {
   constructor(z: Heights, width: number, height: number, options: TilerOptions);
   readonly maxZoom: number;
