@@ -67,11 +67,13 @@ std::string find_mesh_title(std::string_view head, const std::string& extension)
   return is_mesh ? traits_of(*named).title : "";
 }
 
-/// True for UTF-16 with its mark and an ASCII character. Heights of -2, big-endian, begin like the mark.
-bool is_wide_text(std::string_view head) {
-  if (head.size() < 4) return false;
-  return (head.starts_with("\xff\xfe") && head[2] != 0 && head[3] == 0) ||
-         (head.starts_with("\xfe\xff") && head[2] == 0 && head[3] != 0);
+/// "UTF-16" by its mark, "UTF-16LE" or "UTF-16BE" by the zeros of the first characters; else empty.
+const char* find_wide_encoding(std::string_view head) {
+  if (head.size() < 4) return "";
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) return "UTF-16";
+  const auto is_letter = [](char first, char second) { return first >= 9 && first < 127 && second == 0; };
+  if (is_letter(head[0], head[1]) && is_letter(head[2], head[3])) return "UTF-16LE";
+  return is_letter(head[1], head[0]) && is_letter(head[3], head[2]) ? "UTF-16BE" : "";
 }
 
 std::string through_pdal(const std::string& path) {
@@ -115,11 +117,19 @@ std::string unpack(const std::string& path, const std::string& extension) {
 
 }  // namespace
 
+std::string describe_wide_text(const std::string& path, std::string_view head) {
+  const std::string encoding = find_wide_encoding(head);
+  return encoding.empty() ? ""
+                          : fmt::format("text in {}: make UTF-8 of it ({})", encoding, utf8_command(encoding, path));
+}
+
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name) {
   const std::string extension = lowered(std::filesystem::path(path).extension().string());
-  if (is_wide_text(head)) return fmt::format("text in UTF-16: make UTF-8 of it ({})", utf8_command("UTF-16", path));
   const KindRow* row = find_kind(head, by_name ? extension : "");
   if (row == nullptr) {
+    // SRTM tiles have no header, and may begin like a mark: with a height of -2.
+    std::string wide = extension == ".hgt" ? "" : describe_wide_text(path, head);
+    if (!wide.empty()) return wide;
     const std::string title = find_mesh_title(head, by_name ? extension : "");
     const bool is_landxml = title == traits_of(MeshFormat::kLandXml).title;
     return title.empty() ? ""

@@ -12,9 +12,10 @@ bomb = ('<?xml version="1.0"?>\n<!-- a < b -->\n<!DOCTYPE x [\n' + "\n".join(ent
 open("bomb.xml", "w").write(bomb)
 open("bomb16.xml", "w", encoding="utf-16").write(bomb.replace('version="1.0"', 'version="1.0" encoding="UTF-16"'))
 PYTHON
-for bomb in bomb.xml bomb16.xml; do
-  refuses 2 "$bomb: not a raster" timeout 600 "$scarp" info "$bomb"
-  refuses 2 "$bomb: not a raster" timeout 600 "$scarp" simplify "$bomb" out.glb -e 1
+for bomb in bomb.xml:"not a raster" bomb16.xml:"text in UTF-16"; do
+  is=${bomb#*:} bomb=${bomb%:*}
+  refuses 2 "$bomb: $is" timeout 600 "$scarp" info "$bomb"
+  refuses 2 "$bomb: $is" timeout 600 "$scarp" simplify "$bomb" out.glb -e 1
   refuses 2 "$bomb: XML that declares entities is not read" timeout 600 "$scarp" simplify "$dem" out.glb -e 50 --cutline "$bomb"
   refuses 2 "$bomb: XML that declares entities is not read" timeout 600 "$scarp" simplify "$bomb" out.glb -e 1 --points
 done

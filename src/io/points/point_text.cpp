@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/commands.h"
+#include "io/kinds.h"
 #include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/column_names.h"
@@ -125,16 +126,6 @@ bool are_all_alike(const std::vector<double>& heights) {
   return std::all_of(heights.begin(), heights.end(), [&](double z) { return z == heights.front(); });
 }
 
-/// "UTF-16" by its mark, "UTF-16LE" or "UTF-16BE" by the zeros of the first characters; else empty.
-std::string find_wide_encoding(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < 4) return {};
-  const int mark = bytes[0] << 8 | bytes[1];
-  if (mark == 0xfffe || mark == 0xfeff) return "UTF-16";
-  const auto is_letter = [](int first, int second) { return first >= 9 && first < 127 && second == 0; };
-  if (is_letter(bytes[0], bytes[1]) && is_letter(bytes[2], bytes[3])) return "UTF-16LE";
-  return is_letter(bytes[1], bytes[0]) && is_letter(bytes[3], bytes[2]) ? "UTF-16BE" : "";
-}
-
 /// Sets the units in the header.
 void take_units_of(const PointColumns& columns, PointSet& points) {
   const auto& [x, y, height] = columns.units;
@@ -165,9 +156,8 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   points.path = name;
   points.format = name.ends_with(".xyz") ? "XYZ" : "CSV";
   const std::string_view text{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  if (const std::string encoding = find_wide_encoding(bytes); !encoding.empty())
-    return fail(ErrorKind::kInput, fmt::format("{}: text in {}, of which nothing is read: make UTF-8 of it ({})", name,
-                                               encoding, utf8_command(encoding, name)));
+  if (const std::string wide = describe_wide_text(name, text); !wide.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: {}", name, wide));
   TextLines lines(text);
   std::string_view line;
   if (!lines.next(line))
