@@ -200,7 +200,7 @@ run_rest() {
   fi
 
   announce "4/4 thread sanitizer: tests that use threads"
-  # Without optimization clang needs half of GCC's time.
+  # Without optimization clang needs 0.6 of GCC's time.
   if CXX=$(command -v clang++ || command -v c++) timed rest_threads_build build_stage "$build-tsan" tsan scarp_thread_tests; then
     TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" timed rest_threads run_gtest "$build-tsan/bin/scarp_thread_tests"
   fi

@@ -128,7 +128,8 @@ class PointRun {
     for (const std::uint32_t point : domain_.point_of) {
       if (point == kNone) continue;
       const bool is_on_line = !lines_.empty() && lines_.on_lines()[point];
-      if (is_on_line || (!bounds_.empty() && PointAims(bounds_[point], recipe_.largest).fit <= 0)) fixed.push_back(point);
+      if (is_on_line || (!bounds_.empty() && PointAims(bounds_[point], recipe_.largest).fit <= 0))
+        fixed.push_back(point);
     }
     std::sort(fixed.begin(), fixed.end());
     return fixed;

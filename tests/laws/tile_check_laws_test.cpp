@@ -307,7 +307,9 @@ void expect_finds_planted(const TileGrid& grid) {
   ASSERT_TRUE(good.check().holds());
   const TileId id = good.inner_tile();
   const std::string name = tile_name(TileFormat::kQuantizedMesh, id);
-  for (std::size_t k = 0; k < std::size(kPlanted); k += testing::kIsSanitized ? 3 : 1) {
+  // Under sanitizers all faults once: the bytes of the tiles of both grids are read alike.
+  const std::size_t step = testing::kIsSanitized && grid.roots() == 1 ? 3 : 1;
+  for (std::size_t k = 0; k < std::size(kPlanted); k += step) {
     const Planted& fault = kPlanted[k];
     Made made = good;
     made.options.nodes.source = &made.land;

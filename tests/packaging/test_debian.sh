@@ -92,7 +92,7 @@ if has_debian; then
       fail "$package is no Build-Depends"
   done
   succeeds "$source_tree/tools/source_tarball.sh" .
-  # Unoptimized code compiles faster, with clang in half of GCC's time.
+  # Unoptimized code compiles faster, with clang in 0.6 of GCC's time.
   if command -v clang++ > /dev/null; then export CC=clang CXX=clang++; fi
   export DEB_BUILD_OPTIONS="nocheck noopt noautodbgsym" DEB_CXXFLAGS_STRIP=-g SCARP_VIEWER_PAGE=$scratch/page.html
   export DPKG_DEB_COMPRESSOR_LEVEL=1

@@ -100,8 +100,9 @@ else
   echo "pkg-config is missing: that part is skipped"
 fi
 
-# 5. add_subdirectory, core only. Without optimization clang needs half of GCC's time.
-CXX=$(command -v clang++ || command -v c++) cmake -S "$source_tree/tests/consume/add_subdirectory" -B "$scratch/sub" -DSCARP_SOURCE="$source_tree" \
+# 5. add_subdirectory, core only. Without optimization clang needs 0.6 of GCC's time.
+CXX=$(command -v clang++ || command -v c++) cmake -S "$source_tree/tests/consume/add_subdirectory" -B "$scratch/sub" \
+  -DSCARP_SOURCE="$source_tree" \
   -DSCARP_WITH_GDAL=OFF -DCMAKE_UNITY_BUILD=ON -DSCARP_BATCH=60 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 >/dev/null
 cmake --build "$scratch/sub" -j 2 >"$scratch/sub.log" 2>&1 || { cat "$scratch/sub.log"; fail "add_subdirectory without GDAL"; }
 "$scratch/sub/consumer" || fail "add_subdirectory"
