@@ -106,7 +106,7 @@ std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, cli::Simpli
 }
 
 /// Replaces the mesh by that of the print's only tile.
-Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
+Result<void> take_print(cli::SimplifyRun& outcome, scarp_mesh& mesh) {
   if (!outcome.print) return {};
   if (outcome.print->tiles.size() != 1)
     return fail(ErrorKind::kUsage, "a print that is split is several meshes: leave split out");
@@ -126,7 +126,9 @@ Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const Request& request, c
   cli::PointsOutcome outcome;
   SCARP_RETURN_IF_ERROR(cli::make_points_mesh(request.given, runner, plan, outcome));
   SCARP_RETURN_IF_ERROR(cli::complete_mesh(plan, outcome));
-  return hand_over(plan, outcome);
+  auto mesh = hand_over(plan, outcome);
+  SCARP_RETURN_IF_ERROR(take_print(outcome, *mesh));
+  return mesh;
 }
 
 Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, InputKind kind,

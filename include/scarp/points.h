@@ -129,8 +129,13 @@ struct PointOptions {
   /// Upper bounds, as in SimplifyOptions. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
+  /// The quantity that a budget minimises. kRms needs a budget and more than fast effort. DEFAULT: kMax.
+  Objective objective = Objective::kMax;
   /// True: positions are rounded to float32, as in GLB and STL; false: double. DEFAULT: true.
   bool float32_positions = true;
+  /// Instead, x and y are rounded as those of a print: (x − origin) · scale is a float32. DEFAULT: none;
+  /// simplify_for_print() sets it.
+  std::optional<Placement> placement = std::nullopt;
   /// False: if a budget ends the run, the result is the last mesh, though an earlier one may have been better. DEFAULT:
   /// true.
   bool best_of_budget = true;
@@ -153,15 +158,15 @@ struct PointOptions {
 
 /// Inserts scattered samples greedily (which section 2 of the 1995 paper only mentions), then removes vertices
 /// according to the effort, as on a raster. With a budget and an effort above fast, lines, tolerances or goals
-/// for shapes, it searches for an error. The domain is the set's own boundary; else, with `boundary_length`, the chi-shape of Duckham
-/// et al. (2008); else the convex hull. The chi-shape begins as the Delaunay triangulation of all points. Triangles
-/// whose boundary edge exceeds boundary_length are removed, the longest edge first. A triangle is kept if its removal
-/// would split the domain or exclude a point, or if the domain's boundary would not remain a simple polygon. All
-/// corners of this polygon are vertices. Each triangle stores the list of its points. Coordinates are snapped to an
-/// integer lattice of up to 2^30 steps: the coarsest lattice that contains the given decimals exactly; if there is
-/// none, the finest lattice whose step is a power of two. With an effort above fast, or with float32_positions and
-/// lines, the step is that of the decimals divided by a power of two, or a power of two; the extent then has at least
-/// 2^22 steps. Different points are never merged: the call fails if the lattice cannot separate two points. Among
+/// for shapes, it searches for an error. The domain is the set's own boundary; else, with `boundary_length`, the
+/// chi-shape of Duckham et al. (2008); else the convex hull. The chi-shape begins as the Delaunay triangulation of all
+/// points. Triangles whose boundary edge exceeds boundary_length are removed, the longest edge first. A triangle is
+/// kept if its removal would split the domain or exclude a point, or if the domain's boundary would not remain a simple
+/// polygon. All corners of this polygon are vertices. Each triangle stores the list of its points. Coordinates are
+/// snapped to an integer lattice of up to 2^30 steps: the coarsest lattice that contains the given decimals exactly; if
+/// there is none, the finest lattice whose step is a power of two. With an effort above fast, or with float32_positions
+/// and lines, the step is that of the decimals divided by a power of two, or a power of two; the extent then has at
+/// least 2^22 steps. Different points are never merged: the call fails if the lattice cannot separate two points. Among
 /// points of equal error, the northernmost, then westernmost one is inserted. For points on a grid, fast effort selects
 /// the same vertices as simplify() for the raster, except for ties.
 ///
@@ -175,13 +180,14 @@ struct PointOptions {
 /// Guarantees that |mesh − z| is at most max_error, and at most the point's tolerance, at every point that is not
 /// dropped as a duplicate. This holds at the point's given coordinates, for the positions stored in the mesh. Vertices
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
-/// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; a boundary_length not above
-/// 0, or with lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or
-/// without a max_error; the dominant order. Fails with kInput for lines that meet at different heights (the message names the lines); fewer than 3 places; all places on one line; a value that is not finite or
-/// beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30 of the extent (the message
-/// names these points and the far point that makes the extent so large). Fails with kPromise if float32 positions
-/// cannot satisfy the bound, and with kCancelled. Cost: expected O(n log m) for n points, with boundary_length O(n log
-/// n); some 50 to 60 bytes a point in addition to the points themselves.
+/// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; the objective rms without a
+/// budget or with fast effort; a boundary_length not above 0, or with lines; goals for shapes out of range; a wrong
+/// number of tolerances; tolerances below 0, NaN or without a max_error; the dominant order. Fails with kInput for
+/// lines that meet at different heights (the message names the lines); fewer than 3 places; all places on one line; a
+/// value that is not finite or beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30
+/// of the extent (the message names these points and the far point that makes the extent so large). Fails with kPromise
+/// if float32 positions cannot satisfy the bound, and with kCancelled. Cost: expected O(n log m) for n points, with
+/// boundary_length O(n log n); some 50 to 60 bytes a point in addition to the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

@@ -14,6 +14,7 @@
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
+#include "scarp/points.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
@@ -74,6 +75,9 @@ struct PrintedTerrain {
 /// once if it is not in memory. Fails if a read fails, and with kInput if no sample has a height.
 Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print);
 
+/// The same for points, from their extent.
+Result<double> estimate_print_scale(const PointSet& points, const PrintOptions& print);
+
 /// Simplifies a field for a print. Rounding moves the placed positions, so the mesh is made with 1/1024 of the max
 /// error in reserve. If that is not enough, the mesh is remade with a smaller max error, up to three times. The bound
 /// then holds for the print tiles as written. Cuts between tiles are edges of the mesh. If a budget ends the run, the
@@ -89,6 +93,15 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 /// and if float32 positions cannot satisfy the max error. Also fails as simplify(), build_solid() and measure() do.
 /// Cost: usually one or two runs of simplify(), at most four, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
+
+struct PrintedPoints {
+  SimplifiedPoints made;  ///< the terrain from which the print was made, in the coordinates of the points
+  Print print;
+};
+
+/// The same for points. `options`: as for simplify_points(); float32_positions is ignored. PointOptions::tolerances
+/// hold for the terrain; for the print only the max error is judged. Fails with kUsage for several print tiles.
+Result<PrintedPoints> simplify_for_print(const PointSet& points, const PrintOptions& print, PointOptions options);
 
 }  // namespace scarp
 

@@ -53,11 +53,11 @@ Extent extent_of(std::span<const float> samples, float nodata) {
   const auto look = [&](const float* lanes) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       const float z = lanes[k];
-      const float low = (z != nodata) & (z > -kInfinity) ? z : kInfinity;
-      const float high = (z != nodata) & (z < kInfinity) ? z : -kInfinity;
+      const float low = ((z != nodata) & (z > -kInfinity)) ? z : kInfinity;
+      const float high = ((z != nodata) & (z < kInfinity)) ? z : -kInfinity;
       least[k] = low < least[k] ? low : least[k];
       most[k] = high > most[k] ? high : most[k];
-      valid[k] += (z != nodata) & (z > -kInfinity) & (z < kInfinity) ? 1 : 0;
+      valid[k] += ((z != nodata) & (z > -kInfinity) & (z < kInfinity)) ? 1 : 0;
     }
   };
   const std::size_t whole = samples.size() / kLanes * kLanes;

@@ -116,6 +116,9 @@ Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double>
   fit_options.floor_yields = !quality.min_shape && !quality.shape.any();
   if (quality.shape.any()) fit_options.shape = shape_rule(quality.shape, points.lattice);
   fit_options.most_side = kMostSide;
+  fit_options.squares = recipe.scale.squares;
+  if (fit_options.squares && fit_options.squares->most_vertices != kNoBudget)
+    fit_options.squares->most_vertices += domain.unused;
   fit_options.is_time_up = options.run.is_time_up;
   fit_options.goes_on = recipe.traits.goes_on && options.run.is_time_up;
   Reporter reporter(options.run.progress);

@@ -16,6 +16,12 @@ namespace {
 Result<void> check_goals(const PointOptions& options) {
   if (!options.max_error && !options.max_triangles && !options.max_vertices)
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  if (options.objective == Objective::kRms) {
+    if (!options.max_triangles && !options.max_vertices)
+      return fail(ErrorKind::kUsage, "the objective rms needs max_triangles or max_vertices");
+    if (options.quality.effort == Effort::kFast)
+      return fail(ErrorKind::kUsage, "the objective rms needs more than fast effort");
+  }
   if (options.boundary_length && !(*options.boundary_length > 0))
     return fail(ErrorKind::kUsage,
                 fmt::format("boundary_length must be above 0, and {} is not", *options.boundary_length));
@@ -53,6 +59,17 @@ double largest_of(std::span<const double> heights) {
   return largest;
 }
 
+/// There is no search for a small squared error with shape goals, nor with tolerances: a point with a tolerance is two
+/// samples for fitting (point_fit.cpp), whose squares are not those of its error.
+Search choose_search(const PointRecipe& recipe) {
+  const PointOptions& options = recipe.options;
+  const bool has_budget = options.max_triangles || options.max_vertices;
+  if (!has_budget || (!recipe.removes && recipe.insertion_stops)) return Search::kNone;
+  const bool lowers_squares = options.objective == Objective::kRms && recipe.removes && !options.quality.shape.any() &&
+                              options.tolerances.empty();
+  return lowers_squares ? Search::kSquares : Search::kError;
+}
+
 constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
 
 }  // namespace
@@ -70,17 +87,18 @@ Result<void> check_point_options(const PointSet& points, const PointOptions& opt
   return check_lines(points, options);
 }
 
-PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only)
+PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, const Scale& wanted)
     : options(asked),
+      scale(wanted),
       largest(largest_of(points.z)),
-      effort(refines_only                            ? Effort::kFast
+      effort(wanted.refines_only                     ? Effort::kFast
              : asked.quality.effort == Effort::kAuto ? Effort::kNormal
                                                      : asked.quality.effort),
       traits(traits_of(effort)),
       aims(asked.max_error.value_or(0), largest),
       removes(traits.fits && (!asked.max_error || aims.is_open())),
       insertion_stops(points.lines.empty() && !asked.quality.shape.any() && asked.tolerances.empty()),
-      searches((removes || !insertion_stops) && (asked.max_triangles || asked.max_vertices)),
+      search(choose_search(*this)),
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
       removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),
       steps(asked.float32_positions && (removes || asked.quality.shape.any() || !points.lines.empty())

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "grid/snapped_points.h"
-#include "pieces/effort.h"
+#include "pieces/recipe.h"
 #include "scarp/points.h"
 #include "scarp/result.h"
 
@@ -26,7 +26,7 @@ struct PointAims {
 
 /// REQUIRES: checked options.
 struct PointRecipe {
-  PointRecipe(const PointSet& points, const PointOptions& asked, bool refines_only = false);
+  PointRecipe(const PointSet& points, const PointOptions& asked, const Scale& scale = {});
 
   /// The bound of a point of the set; REQUIRES: tolerances and a max error.
   double bound_of(std::uint32_t source) const {
@@ -34,13 +34,14 @@ struct PointRecipe {
   }
 
   PointOptions options;
+  Scale scale;
   double largest;        ///< the largest magnitude of a height
   Effort effort;         ///< never kAuto
   EffortTraits traits;   ///< the work of that effort
   PointAims aims;        ///< without a max error, those for 0
   bool removes;          ///< vertices are removed after refinement
   bool insertion_stops;  ///< insertion can stop at budgets (BudgetTask)
-  bool searches;         ///< runs for several errors find the mesh of a budget
+  Search search;         ///< for the mesh of a budget
   bool frees_vertices;   ///< vertices may move off the points
   bool removes_last;     ///< vertices are removed after those for angles and edges, whose goals removal preserves
   PointSteps steps;      ///< lattice of the points

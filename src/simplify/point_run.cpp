@@ -47,7 +47,7 @@ class PointRun {
     if (options_.tolerances.empty()) return;
     for (const std::uint32_t source : snapped_.source) bounds_.push_back(recipe_.bound_of(source));
     aims_ = bounds_;
-    for (double& aim : aims_) aim = std::max(0.0, PointAims(aim, recipe_.largest).refinement);
+    for (double& aim : aims_) aim = recipe_.scale.start * std::max(0.0, PointAims(aim, recipe_.largest).refinement);
   }
 
   Result<Simplified> execute(Clock::time_point start) {
@@ -56,6 +56,8 @@ class PointRun {
     Simplified result;
     SCARP_RETURN_IF_ERROR(refine(result.stop));
     SCARP_RETURN_IF_ERROR(settle_lines(result.stop));
+    result.passes.push_back({"refine", seconds_since(start), scanned_ + refinement_->points_scanned(),
+                             dealt_ + refinement_->lists_dealt(), insertions_});
     take_best_prefix();
     if (recipe_.removes_last) {
       SCARP_RETURN_IF_ERROR(shape(recipe_.aims.refinement, result));
@@ -79,7 +81,7 @@ class PointRun {
   /// Starts towards the bound that fitting needs, or the bound itself.
   void start_refinement() {
     if (!fits_) return restart_refinement();
-    refinement_.emplace(snapped_, heights_, domain_, recipe_.aims.refinement, aims_);
+    refinement_.emplace(snapped_, heights_, domain_, recipe_.scale.start * recipe_.aims.refinement, aims_);
   }
   /// Restarts towards the bound itself.
   void restart_refinement() { refinement_.emplace(snapped_, heights_, domain_, bound_, bounds_); }
@@ -89,7 +91,9 @@ class PointRun {
     result.effort = Effort::kFast;
     if (!fits_ || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
+    const auto start = Clock::now();
     SCARP_TRY(const auto& fitted, fit_points(snapped_, heights_, fixed_points(), recipe_, domain_));
+    result.passes.push_back({.name = "fit", .seconds = seconds_since(start), .removals = fitted.removed});
     result.effort = recipe_.effort;
     if (!lines_.empty() && !goals().any()) {
       restart_refinement();
@@ -238,8 +242,7 @@ class PointRun {
         const double y = is_free ? lattice.north - lattice.step * p.y : points_.y[source];
         offsets = {x - mesh.origin[0], y - mesh.origin[1]};
       }
-      for (const double offset : offsets)
-        mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
+      for (std::size_t k = 0; k < 2; ++k) mesh.positions.push_back(round_offset(mesh.origin[k], offsets[k], k));
       mesh.positions.push_back(domain_.height(v, heights_));
     }
     // The lattice's rows count southwards, so a positive triangle is clockwise seen from above.
@@ -254,15 +257,23 @@ class PointRun {
     result.work.passes = insertions_;
   }
 
+  /// An offset from the mesh's origin as it will be stored; `k`: the axis.
+  double round_offset(double origin, double offset, std::size_t k) const {
+    if (!options_.placement) return options_.float32_positions ? double{static_cast<float>(offset)} : offset;
+    const double from = options_.placement->origin[k] - origin, scale = options_.placement->scale[k];
+    return double{static_cast<float>((offset - from) * scale)} / scale + from;
+  }
+
   /// Largest distance of vertices from their lattice points along x or y.
   double position_rounding(const Mesh& mesh) const {
-    if (is_on_lattice_) return 0;
+    const bool is_rounded = options_.float32_positions || options_.placement;
+    if (is_on_lattice_ && !options_.placement) return 0;
     double reach = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
     }
     const double snapping = snapped_.is_exact ? 0 : snapped_.lattice.step / 2;
-    return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
+    return std::max(snapping, reach * (is_rounded ? 0x1p-24 : 0x1p-53));
   }
 
   std::uint32_t point_of_source(std::int32_t source) {
@@ -342,6 +353,7 @@ class PointRun {
       const bool is_kept = result.stop != StopReason::kMaxError ||
                            (m.max_error <= bound_ + allowance() && m.uncovered == 0 && m.over_tolerance == 0);
       if (m.is_sound() && is_kept) {
+        result.passes.push_back({"prove", result.seconds_measure});
         if (goals().any()) result.shape = report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
         return {};
       }
@@ -388,6 +400,9 @@ class PointRun {
     const std::string larger = m.is_sound() && m.uncovered == 0
                                    ? fmt::format("ask for at least {:.2g}", round_up(find_broken(m).error))
                                    : std::string("ask for a larger error");
+    if (options_.placement)
+      return fmt::format(": positions in the print are rounded to float32, which alone costs that much; {}", larger) +
+             (far.empty() ? "" : "; " + far);
     return (options_.float32_positions
                 ? fmt::format(
                       ": positions in the mesh are rounded to float32, which alone costs that much; {}, or write "

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -182,14 +183,22 @@ Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print,
   return std::optional(std::move(*tiles));
 }
 
-/// Places, cuts and closes the terrain, whose edges include the cuts. Judges the tops against the samples, if necessary
-/// only against those within the cutline.
-Result<Print> make_print(const PrintOptions& options, const HeightField& field,
-                         const std::optional<PrintTilePlan>& tiles, const Mesh& terrain, const Cutline* cutline,
-                         int threads) {
+/// The samples of a print: a raster or points.
+struct PrintTask {
+  /// Simplifies towards a max error, if there is one.
+  std::function<Result<Simplified>(std::optional<double> max_error)> make;
+  /// Cuts the terrain, whose edges include the cuts, into print tiles.
+  std::function<std::vector<Mesh>(const Mesh& terrain)> cut;
+  /// Judges the tops against the samples.
+  std::function<Result<Measurement>(const Mesh& tops)> judge;
+  double rounding = 0;  ///< HeightField::sample_rounding
+};
+
+/// Places, cuts and closes the terrain, and judges its tops.
+Result<Print> make_print(const PrintOptions& options, const PrintTask& task, const Mesh& terrain) {
   Print print;
   SCARP_RETURN_IF_ERROR(place_print(options, terrain, print));
-  std::vector<Mesh> tops = tiles ? cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
+  std::vector<Mesh> tops = task.cut(terrain);
   std::vector<std::size_t> top_sizes;
   for (std::size_t k = 0; k < tops.size(); ++k) {
     if (tops[k].triangles.empty()) {
@@ -203,20 +212,17 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field,
     SolidFacts facts = measure_solid(solid);
     print.tiles.push_back({at / columns + 1, at % columns + 1, std::move(solid), facts});
   }
-  MeasureOptions measuring;
-  measuring.topology = false;
-  measuring.cutline = cutline;
-  measuring.run.threads = threads;
-  SCARP_TRY(const Measurement& judged, measure(field, join_tops(print.tiles, top_sizes), measuring));
+  SCARP_TRY(const Measurement& judged, task.judge(join_tops(print.tiles, top_sizes)));
   print.max_error = judged.max_error;
   print.uncovered = judged.uncovered;
   print.heights = judged.heights;
   if (judged.uncovered > 0 && options.gap == 0) {
     return fail(ErrorKind::kPromise,
-                fmt::format("the solid leaves out {} sample{}, the first at column {}, row {}: it is too small for "
-                            "float32 to tell samples apart",
-                            judged.uncovered, judged.uncovered == 1 ? "" : "s", judged.uncovered_at[0],
-                            judged.uncovered_at[1]));
+                fmt::format("the solid leaves out {} sample{}{}: it is too small for float32 to tell samples apart",
+                            judged.uncovered, judged.uncovered == 1 ? "" : "s",
+                            judged.uncovered_at[0] < 0 ? ""
+                                                       : fmt::format(", the first at column {}, row {}",
+                                                                     judged.uncovered_at[0], judged.uncovered_at[1])));
   }
   return print;
 }
@@ -224,6 +230,59 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field,
 /// Adds the cuts to the lines that simplify() inserts.
 void add_cuts(const PrintTilePlan& tiles, LineConstraints& breaklines) {
   for (Line& line : tiles.lines(breaklines.affine)) breaklines.lines.push_back(std::move(line));
+}
+
+/// Remakes the mesh until the bound holds for its print. `asked`: Goals::max_error. Within a cutline, the mesh may be
+/// smaller than the samples; then the scale is larger than `scale`, and the run is repeated.
+Result<PrintedTerrain> remake(const PrintOptions& print, const PrintTask& task, std::optional<double> asked,
+                              double scale) {
+  const auto tighten = [&](double by) {
+    if (print.max_error) asked = std::min(asked.value_or(HUGE_VAL), *print.max_error / by);
+  };
+  tighten(scale);
+  std::optional<double> towards;
+  if (asked) towards = *asked * (1 - kReserve);
+  for (int run = 1;; ++run) {
+    SCARP_TRY(Simplified simplified, task.make(towards));
+    SCARP_TRY(Print made, make_print(print, task, simplified.mesh));
+    const std::optional<double> before = asked;
+    tighten(made.placement.scale[2]);
+    const double excess = asked ? made.max_error + task.rounding - *asked - judging_allowance(*asked, made.heights) : 0;
+    const bool has_budget_ended =
+        simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
+    if (!(excess > 0) || has_budget_ended) return PrintedTerrain{std::move(simplified), std::move(made)};
+    towards = *asked < *before ? *asked * (1 - kReserve) : *towards - 2 * excess;
+    if (run == kMostPrints || *towards < 0) {
+      return fail(ErrorKind::kPromise,
+                  fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "
+                              "which costs the rest; ask for a larger error or a larger size",
+                              made.max_error, *asked));
+    }
+  }
+}
+
+/// The longest side of the points' extent; `low`: its corner.
+double longest_side(const PointSet& points, std::array<double, 3>& low) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 2 && points.size() > 0; ++k) {
+    const auto [least, most] =
+        std::minmax_element((k == 0 ? points.x : points.y).begin(), (k == 0 ? points.x : points.y).end());
+    longest = std::max(longest, *most - *least);
+    low[k] = *least;
+  }
+  return longest;
+}
+
+/// The placement that place_print() will choose, as for the extent of the points; z is not known yet.
+Result<Placement> foresee_placement(const PointSet& points, const PrintOptions& print) {
+  SCARP_RETURN_IF_ERROR(check_print(print));
+  Placement placement;
+  const double longest = longest_side(points, placement.origin);
+  if (!(longest > 0))
+    return fail(ErrorKind::kInput, "all points lie at one place; a surface needs at least three places");
+  const double scale = print.size ? round_down(*print.size / longest) : 1;
+  placement.scale = {scale, scale, scale * print.exaggerate};
+  return placement;
 }
 
 }  // namespace
@@ -248,52 +307,84 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
   return round_down(*print.size / longest) * print.exaggerate;
 }
 
+Result<double> estimate_print_scale(const PointSet& points, const PrintOptions& print) {
+  SCARP_TRY(const Placement& placement, foresee_placement(points, print));
+  return placement.scale[2];
+}
+
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
   SCARP_RETURN_IF_ERROR(check_print(print));
   if (field.frame.space) return fail(ErrorKind::kUsage, "a print stands on a flat base: choose a frame on the map");
-  // Within a cutline, the mesh may be smaller than the samples; then the scale is larger, and the run is repeated.
-  std::optional<double> asked = options.goals.max_error;
-  const auto tighten = [&](double scale) {
-    if (print.max_error) asked = std::min(asked.value_or(HUGE_VAL), *print.max_error / scale);
-  };
+  double scale = 1;
   if (print.max_error) {
-    SCARP_TRY(const double scale, estimate_print_scale(field, print));
-    tighten(scale);
+    SCARP_TRY(scale, estimate_print_scale(field, print));
   }
   SCARP_TRY(const std::optional<PrintTilePlan>& tiles, plan_print_tiles(print, field));
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
   if (tiles) add_cuts(*tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
   options.output.float32_positions = false;  // positions are rounded in the print
-  const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
-  if (asked) options.goals.max_error = *asked * (1 - kReserve);
-  std::vector<SampleEdit> edits;
-  for (int run = 1;; ++run) {
+  std::optional<std::vector<SampleEdit>> edits;
+  PrintTask task;
+  task.make = [&](std::optional<double> max_error) -> Result<Simplified> {
+    options.goals.max_error = max_error;
     SCARP_TRY(Simplified simplified, simplify(field, options));
     apply_edits(simplified.edits, field);
-    if (run == 1) edits = simplified.edits;
-    SCARP_TRY(Print made, make_print(print, field, tiles, simplified.mesh, cutline, options.run.threads));
-    const std::optional<double> before = asked;
-    tighten(made.placement.scale[2]);
-    const double excess =
-        asked ? made.max_error + field.sample_rounding - *asked - judging_allowance(*asked, made.heights) : 0;
-    const bool has_budget_ended =
-        simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
-    if (!(excess > 0) || has_budget_ended) {
-      simplified.edits = std::move(edits);
-      simplified.lines_inserted -= std::min(cuts, simplified.lines_inserted);
-      auto& fitted = simplified.features.lines.lines;
-      if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
-      return PrintedTerrain{std::move(simplified), std::move(made)};
-    }
-    options.goals.max_error = *asked < *before ? *asked * (1 - kReserve) : *options.goals.max_error - 2 * excess;
-    if (run == kMostPrints || *options.goals.max_error < 0) {
-      return fail(ErrorKind::kPromise,
-                  fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "
-                              "which costs the rest; ask for a larger error or a larger size",
-                              made.max_error, *asked));
-    }
-  }
+    if (!edits) edits = simplified.edits;
+    return simplified;
+  };
+  task.cut = [&](const Mesh& terrain) {
+    return tiles ? cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
+  };
+  task.judge = [&](const Mesh& tops) {
+    MeasureOptions measuring;
+    measuring.topology = false;
+    measuring.cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
+    measuring.run.threads = options.run.threads;
+    return measure(field, tops, measuring);
+  };
+  task.rounding = field.sample_rounding;
+  SCARP_TRY(PrintedTerrain printed, remake(print, task, options.goals.max_error, scale));
+  Simplified& simplified = printed.simplified;
+  simplified.edits = std::move(*edits);
+  simplified.lines_inserted -= std::min(cuts, simplified.lines_inserted);
+  auto& fitted = simplified.features.lines.lines;
+  if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
+  return printed;
+}
+
+Result<PrintedPoints> simplify_for_print(const PointSet& points, const PrintOptions& print, PointOptions options) {
+  SCARP_TRY(Placement placement, foresee_placement(points, print));
+  const double scale = placement.scale[2];
+  if (print.is_split())
+    return fail(ErrorKind::kUsage,
+                "print tiles: they are cut along rows and columns of a raster, and points have none");
+  options.float32_positions = false;
+  // A solid that is not placed has float32 offsets from the origin of the mesh.
+  if (const auto [x, y] = local_origin(points); !print.is_placed()) placement.origin = {x, y, 0};
+  options.placement = placement;
+  SimplifiedPoints made;
+  PrintTask task;
+  task.make = [&](std::optional<double> max_error) -> Result<Simplified> {
+    options.max_error = max_error;
+    SCARP_TRY(made, simplify_points(points, options));
+    return std::move(made.simplified);
+  };
+  task.cut = [](const Mesh& terrain) { return std::vector{terrain}; };
+  task.judge = [&](const Mesh& tops) -> Result<Measurement> {
+    MeasureOptions measuring;
+    measuring.topology = false;
+    measuring.inlets = options.boundary_length.has_value();
+    measuring.run.threads = options.run.threads;
+    SCARP_TRY(Measurement measured, measure_points(points, tops, options.duplicates, measuring));
+    const auto [least, most] = std::minmax_element(points.z.begin(), points.z.end());
+    measured.heights.min = *least;
+    measured.heights.max = *most;
+    return measured;
+  };
+  SCARP_TRY(PrintedTerrain printed, remake(print, task, options.max_error, scale));
+  made.simplified = std::move(printed.simplified);
+  return PrintedPoints{std::move(made), std::move(printed.print)};
 }
 
 }  // namespace scarp

@@ -21,6 +21,7 @@
 #include "simplify/budget_search.h"
 #include "simplify/point_recipe.h"
 #include "simplify/point_run.h"
+#include "simplify/squares_search.h"
 
 namespace scarp {
 
@@ -91,9 +92,11 @@ Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, con
   return run_points(task, recipe, std::move(domain));
 }
 
-/// Judges a mesh by tolerances that were multiplied for it: the least factor that all errors keep.
+/// Judges a mesh by tolerances that were multiplied for it: the least factor that all errors keep, and the RMS of the
+/// ratios of error to bound.
 Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simplified& made) {
-  double factor = 0;
+  double factor = 0, squares = 0;
+  std::uint64_t count = 0;
   MeasureOptions judge;
   judge.run.threads = asked.run.threads;
   judge.inlets = asked.boundary_length.has_value();
@@ -101,11 +104,16 @@ Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simp
   judge.on_row = [&](int, std::span<const float> errors) {
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const double bound = std::min(*asked.max_error, double{asked.tolerances[i]}), error = std::abs(double{errors[i]});
-      if (error > 0) factor = std::max(factor, error / bound);  // not NaN
+      if (!(error >= 0)) continue;
+      const double ratio = error > 0 ? error / bound : 0;
+      factor = std::max(factor, ratio);
+      squares += ratio * ratio;
+      ++count;
     }
   };
   SCARP_TRY(made.measurement, judge::judge_points(task.points, task.snapped, made.mesh, judge));
   made.judged_max_error = factor * (1 + 0x1p-22);  // errors are float32
+  made.judged_rmse = std::sqrt(squares / static_cast<double>(std::max<std::uint64_t>(count, 1)));
   made.tolerance_factor = std::max(1.0, made.judged_max_error);
   return {};
 }
@@ -114,7 +122,7 @@ Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simp
 Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
   const PointOptions& asked = recipe.options;
   SimplifyOptions options;
-  options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices};
+  options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices, asked.objective};
   options.tolerances.values = asked.tolerances;
   options.quality = asked.quality;
   options.run = asked.run;
@@ -129,7 +137,7 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     std::vector<float> tolerances;
     for (const float bound : asked.tolerances) tolerances.push_back(static_cast<float>(scale.factor * double{bound}));
     once.tolerances = tolerances;
-    SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale.refines_only), outlines));
+    SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale), outlines));
     if (!tolerances.empty()) {
       SCARP_RETURN_IF_ERROR(judge_factor(task, asked, made.simplified));
     }
@@ -147,7 +155,8 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     return 2 * (*most - *least) / (bound > 0 ? bound : 1);
   };
   search.least = task.least(asked);
-  SCARP_TRY(auto&& found, search_budget(options, search));
+  SCARP_TRY(auto&& found,
+            recipe.search == Search::kSquares ? search_squares(options, search) : search_budget(options, search));
   auto of_found = facts.rbegin();
   while (of_found->first != found.mesh.positions.data()) ++of_found;
   return PointMesh{std::move(found), of_found->second};
@@ -188,7 +197,8 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   if (!options.boundary_length && points.boundary.empty() && points.lines.empty())
     result.hull_fit = find_hull_fit(snapped);
   const Outlines outlines = domain.outlines;
-  SCARP_TRY(auto&& made, recipe.searches ? search(task, recipe, outlines) : run_from(task, recipe, outlines));
+  SCARP_TRY(auto&& made,
+            recipe.search == Search::kNone ? run_from(task, recipe, outlines) : search(task, recipe, outlines));
   result.simplified = std::move(made.simplified);
   result.flat = made.facts.flat;
   result.loose = made.facts.loose;

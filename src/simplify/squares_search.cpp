@@ -35,7 +35,8 @@ class SquaresSearch {
     if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) {
       auto searched = search_budget(options_, task_);
       // Larger efforts may use a max error that refinement did not need.
-      return searched && rank(*fast) < rank(*searched) ? fast : searched;
+      if (searched && rank(*fast) < rank(*searched)) return fast;
+      return searched;
     }
     SCARP_TRY(const auto& first, find_start(reached, static_cast<double>(fast->mesh.triangle_count())));
     std::optional<Simplified> best;

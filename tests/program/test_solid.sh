@@ -128,6 +128,28 @@ succeeds "$scarp" simplify "$dem" part.stl -e 0.2mm --solid size=120mm --cutline
 holds "$(json part.json solid max_error) * $(json part.json solid scale 2) <= 0.2"
 holds "$(json part.json goal max_error) * $(json part.json solid scale 2) <= 0.2000001"
 
+# Points: the file is judged where it was made.
+python3 - >points.csv <<'EOF'
+import math, random
+random.seed(5)
+print("x,y,z")
+for _ in range(3000):
+    x, y = random.uniform(0, 900), random.uniform(0, 700)
+    print(f"{500000 + x:.2f},{4649000 + y:.2f},{60 * math.sin(x / 150) * math.cos(y / 110) + random.uniform(0, 3):.2f}")
+EOF
+for format in stl 3mf; do
+  succeeds "$scarp" simplify points.csv points.$format -e 0.3mm --solid size=100mm,thickness=2mm --report points.json --overwrite
+  holds "$(json points.json solid max_error) * $(json points.json solid scale 2) <= 0.3"
+  holds "$(json points.json solid pieces 0 size 0) <= 100 && $(json points.json solid pieces 0 size 0) > 99.99"
+  "$scarp" measure points.csv points.$format --json >judged.json || fail "a print of points breaks the bound"
+  [ "$(json judged.json topology closed)" = true ] || fail "measure finds the print of points open"
+  holds "$(json judged.json uncovered) == 0 && $(json judged.json max_error) == $(json points.json solid max_error)"
+done
+admesh_likes points.stl
+lib3mf_likes points.3mf 1 "$(json points.json solid triangles)"
+refuses 1 "--split is for rasters" "$scarp" simplify points.csv x.stl -e 2 --solid size=100 --split 2x2
+refuses 3 "positions in the print are rounded to float32" "$scarp" simplify points.csv x.stl -e 0 --solid size=100
+
 # Refusals.
 refuses 1 "no key bse: choose base, thickness, size, exaggerate or walls" "$scarp" simplify "$dem" x.stl -e 20 --solid bse=1
 refuses 1 "base=300 is not below the lowest vertex, which is at 2" "$scarp" simplify "$dem" x.stl -e 20 --solid base=300

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "laws/fields.h"
+#include "laws/point_sets.h"
 #include "scarp/measure.h"
 
 namespace scarp::testing {
@@ -50,6 +51,52 @@ TEST(Print, KeepsItsBoundAsItIsWritten) {
     ASSERT_TRUE(judged);
     EXPECT_LE(judged->max_error, error * (1 + 1e-9));
   }
+}
+
+TEST(Print, OfPointsKeepsItsBoundAsItIsWrittenByBruteForce) {
+  for (const Scatter scatter : {Scatter::kWhole, Scatter::kUtm, Scatter::kTiny, Scatter::kStreets}) {
+    const PointSet points = random_points(11, 300, scatter, Heights::kReal);
+    for (const bool is_placed : {true, false}) {
+      PrintOptions print;
+      if (is_placed) print.size = 120;
+      PointOptions options{.max_error = 8};
+      options.quality.effort = is_placed ? Effort::kHigh : Effort::kNormal;
+      const auto printed = simplify_for_print(points, print, options);
+      ASSERT_TRUE(printed) << printed.error().message;
+      ASSERT_EQ(printed->print.tiles.size(), 1u);
+      const PrintTile& tile = printed->print.tiles.front();
+      EXPECT_TRUE(tile.facts.is_solid()) << tile.facts.list_faults();
+      EXPECT_LE(printed->print.max_error, 8);
+      const double longest = std::max(tile.facts.high[0] - tile.facts.low[0], tile.facts.high[1] - tile.facts.low[1]);
+      if (is_placed) {
+        EXPECT_NEAR(longest, 120, 0.01);
+      }
+
+      Mesh tops = tile.mesh;
+      EXPECT_EQ(undo_placement(tops), is_placed);
+      tops.triangles.resize(3 * printed->made.simplified.mesh.triangle_count());
+      for (std::size_t v = 0; v < tops.vertex_count(); ++v) tops.positions[3 * v + 2] += tops.origin[2];
+      PointSet distinct;  // duplicates are no samples
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        bool is_first = true;
+        for (std::size_t k = 0; k < i; ++k) is_first &= points.x[k] != points.x[i] || points.y[k] != points.y[i];
+        if (!is_first) continue;
+        distinct.x.push_back(points.x[i]);
+        distinct.y.push_back(points.y[i]);
+        distinct.z.push_back(points.z[i]);
+      }
+      EXPECT_LE(judge_by_brute_force(distinct, tops).second, 8 + 1e-6);
+    }
+  }
+}
+
+TEST(Print, OfPointsIsNotSplit) {
+  PrintOptions print;
+  print.columns = 2;
+  const auto printed =
+      simplify_for_print(random_points(1, 30, Scatter::kUtm, Heights::kReal), print, PointOptions{.max_error = 8});
+  ASSERT_FALSE(printed);
+  EXPECT_EQ(printed.error().kind, ErrorKind::kUsage);
 }
 
 TEST(Print, IsCutIntoPrintTiles) {

@@ -42,7 +42,7 @@ Result<void> run_simplify_points(const GivenOptions& given, const std::string& c
 
   if (given.has(kQuiet)) return {};
   print_warnings(outcome.warnings);
-  const std::string summary = make_summary(plan, outcome, files);
+  const std::string summary = make_summary(plan, outcome, files) + (given.has(kTiming) ? timing_lines(outcome) : "");
   if (!is_stdout(plan.output) && !is_stdout(plan.report.value_or(""))) return print_summary(summary);
   print_to_stderr(summary);
   return {};

@@ -7,7 +7,8 @@ namespace scarp::wasm {
 /// `coordinates`: 3 doubles a point, x, y, z.
 struct Points {
   double coordinates, count;
-  double max_error, max_triangles, max_vertices, duplicates, effort, doubles, has_progress;
+  double max_error, max_triangles, max_vertices, duplicates, effort, vertices, min_shape, objective, doubles,
+      has_progress;
 };
 
 }  // namespace scarp::wasm
@@ -33,6 +34,9 @@ SCARP_EXPORT(scarp_simplify_points) WholeMesh* scarp_simplify_points(const Point
     options.max_vertices = budget(given_points->max_vertices);
     options.duplicates = static_cast<scarp::DuplicatePolicy>(given_points->duplicates);
     options.quality.effort = static_cast<scarp::Effort>(given_points->effort);
+    options.quality.vertices = static_cast<scarp::Vertices>(given_points->vertices);
+    options.quality.min_shape = given(given_points->min_shape);
+    options.objective = static_cast<scarp::Objective>(given_points->objective);
     options.float32_positions = given_points->doubles == 0;
     options.run.threads = 1;
     if (given_points->has_progress != 0) options.run.progress = ask_javascript();

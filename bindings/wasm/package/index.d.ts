@@ -100,16 +100,19 @@ export interface Goals {
   maxVertices?: number;
 }
 
-export interface Options extends Goals, Place {
+export interface Work {
   /** fast: the mesh of insertion. normal: about half the triangles of fast. high: about a third, in some seven
    * times the time of normal. */
   effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   vertices?: 'auto' | 'samples' | 'free';
-  order?: 'auto' | 'greedy' | 'dominant';
   /** The quantity that a budget minimises: the largest or the RMS error. */
   objective?: 'max' | 'rms';
   /** Lower bound for the height of triangles over their longest edge, 0 to 0.5. */
   minShape?: number;
+}
+
+export interface Options extends Goals, Work, Place {
+  order?: 'auto' | 'greedy' | 'dominant';
   /** Max distance by which the outline of valid data may move outwards, in samples. */
   outlineTolerance?: number;
   normals?: boolean;
@@ -206,10 +209,9 @@ export function measure(
   place?: Place,
 ): Report;
 
-export interface PointOptions extends Goals {
+export interface PointOptions extends Goals, Work {
   /** Rule for several points at one position. */
   duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
-  effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
   doubles?: boolean;
   onProgress?: (progress: Progress) => boolean | void;
 }

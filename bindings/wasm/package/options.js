@@ -114,7 +114,7 @@ const SIMPLIFY = [
   ...PLACE,
   ...RUN,
 ];
-const POINTS = [...GOALS, 'duplicates', 'effort', 'doubles', ...RUN];
+const POINTS = [...GOALS, 'duplicates', 'effort', 'vertices', 'minShape', 'objective', 'doubles', ...RUN];
 export const ENTRIES = {
   simplify: [...SIMPLIFY, 'transfer'],
   simplifySync: SIMPLIFY,

@@ -100,7 +100,15 @@ export function checkPoints(points) {
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifyPointsSync');
   checkSignal(taken.signal);
-  const { duplicates = 'first', effort = 'auto', doubles, onProgress } = taken;
+  const {
+    duplicates = 'first',
+    effort = 'auto',
+    vertices = 'auto',
+    minShape = NaN,
+    objective = 'max',
+    doubles,
+    onProgress,
+  } = taken;
   const given = checkPoints(points);
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {
@@ -111,6 +119,9 @@ export function simplifyPointsSync(points, options = {}, flag = undefined) {
       listGoals(taken),
       choose('duplicates', duplicates),
       choose('effort', effort),
+      choose('vertices', vertices),
+      minShape,
+      choose('objective', objective),
       Number(Boolean(doubles)),
       Number(Boolean(progress)),
     );

@@ -53,6 +53,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
+     .is_for_points = true,
      .help = "Quantity to minimise with -t or -p: the max error or the RMSE. With rms, errors stay within -e or, "
              "without -e, within the max error of --effort fast. Needs --effort normal or more."},
 

@@ -307,8 +307,9 @@ const OptionRow kLineRows[] = {
      .type = kText,
      .value = "KEY=VALUE,...",
      .choices = "size= base= thickness= exaggerate=",
+     .is_for_points = true,
      .help = "Close the mesh into a solid for printing, as .stl, .3mf, .obj or .ply. size=120mm: longest side. base=H: "
-             "base height in the raster's units. thickness=3mm: distance from the base to the lowest vertex. "
+             "base height in the input's units. thickness=3mm: distance from the base to the lowest vertex. "
              "exaggerate=F: height factor.",
      .brief = "A closed solid for printing: size=120mm, exaggerate=2"},
     {.id = kSplit,

@@ -90,6 +90,7 @@ constexpr OptionRow kRunRows[] = {
      .group = OptionGroup::kRun,
      .type = kFlag,
      .is_of_mesh = false,
+     .is_for_points = true,
      .help = "After the summary, print the time and work of each pass."},
     {.id = kJsonProgress,
      .name = "--json-progress",

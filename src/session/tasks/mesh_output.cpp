@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "scarp/picture.h"
@@ -76,6 +78,47 @@ Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Me
   if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
   if (format.kind == OutputKind::kEps) return encode_eps(mesh);
   return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, options);
+}
+
+void take_print(const SimplifyPlan& plan, Print print, SimplifyRun& run) {
+  run.print = std::move(print);
+  // The mesh may be smaller than the samples' extent, and its print at a larger scale than estimated.
+  if (plan.solid->max_error && run.asked)
+    run.asked = std::min(*run.asked, *plan.solid->max_error / run.print->placement.scale[2]);
+}
+
+Error name_print(Error error) {
+  if (error.message.starts_with("base=")) error.message.insert(0, name_of(OptionId::kSolid) + " ");
+  constexpr std::string_view kPrintTiles = "print tiles:";
+  if (error.message.starts_with(kPrintTiles))
+    error.message.replace(0, kPrintTiles.size(), name_of(OptionId::kSplit) + ":");
+  return error;
+}
+
+std::vector<Mesh> named_solids(const SimplifyPlan& plan, const SimplifyRun& run) {
+  std::vector<Mesh> solids;
+  const bool is_whole = run.print->tiles.size() == 1 && run.print->empty_tiles == 0;
+  for (const PrintTile& tile : run.print->tiles) {
+    solids.push_back(tile.mesh);
+    solids.back().metadata.insert(run.simplified.mesh.metadata.begin(), run.simplified.mesh.metadata.end());
+    turn_as_planned(plan, solids.back());
+    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", tile.row, tile.column);
+  }
+  return solids;
+}
+
+Result<void> encode_print_tiles(const SimplifyPlan& plan, const SimplifyRun& run, std::vector<ReadyFile>& files) {
+  const std::vector<std::string> paths = print_paths(plan, *run.print);
+  const std::vector<Mesh> solids = named_solids(plan, run);
+  std::vector<ReadyFile> tiles;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    SCARP_TRY(std::vector<std::uint8_t> bytes,
+              encode_mesh(solids[k], plan.format.mesh, {.double_positions = plan.doubles}));
+    tiles.push_back({paths[k], plan.format.name(), std::move(bytes)});
+  }
+  files.erase(files.begin());
+  files.insert(files.begin(), std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
+  return {};
 }
 
 }  // namespace scarp::cli

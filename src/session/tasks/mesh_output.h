@@ -36,4 +36,13 @@ Result<void> add_drape(const SimplifyPlan& plan, const Picture& image, GlbOption
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
                                             const EncodeOptions& options = {});
 
+/// Stores a print in the run. Its scale, and with it the requested error, may differ from the estimate.
+void take_print(const SimplifyPlan& plan, Print print, SimplifyRun& run);
+/// Rewrites an error of simplify_for_print() in terms of the options.
+Error name_print(Error error);
+/// The print tiles, with the terrain's metadata. REQUIRES: a print.
+std::vector<Mesh> named_solids(const SimplifyPlan& plan, const SimplifyRun& run);
+/// Adds a file for each print tile; the first replaces OUTPUT's file.
+Result<void> encode_print_tiles(const SimplifyPlan& plan, const SimplifyRun& run, std::vector<ReadyFile>& files);
+
 }  // namespace scarp::cli

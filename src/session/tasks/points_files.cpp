@@ -145,7 +145,9 @@ Result<void> read_draped_image(const SimplifyPlan& plan, const Runner& runner, P
 Result<void> encode_output(const SimplifyPlan& plan, const PointsOutcome& outcome, ReadyFile& file) {
   GlbOptions glb{.compress = plan.compress, .threads = plan.simplify.run.threads};
   SCARP_RETURN_IF_ERROR(add_drape(plan, outcome.drape, glb));
-  SCARP_TRY(file.bytes, encode_as(plan.format, outcome.simplified.mesh, glb, {.double_positions = plan.doubles}));
+  SCARP_TRY(file.bytes, outcome.print
+                            ? encode_3mf(named_solids(plan, outcome))
+                            : encode_as(plan.format, outcome.simplified.mesh, glb, {.double_positions = plan.doubles}));
   return {};
 }
 
@@ -201,7 +203,9 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Runn
     SCARP_RETURN_IF_ERROR(add_contours(plan, outcome, outcome.centre ? "" : outcome.points.crs, files));
   }
   turn_as_planned(plan, outcome.simplified.mesh);
-  if (plan.format.kind != OutputKind::kDem) {
+  if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
+    SCARP_RETURN_IF_ERROR(encode_print_tiles(plan, outcome, files));
+  } else if (plan.format.kind != OutputKind::kDem) {
     SCARP_RETURN_IF_ERROR(encode_output(plan, outcome, files.front()));
   }
   const auto encode = [&](ReadyFile& file) -> Result<void> {

@@ -146,7 +146,7 @@ void add_metadata(const SimplifyPlan& plan, PointsOutcome& outcome) {
   if (!heights.unit.empty()) mesh.metadata["unit"] = heights.unit;
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
-                   {"max_error", measured.max_error},
+                   {"max_error", outcome.print ? outcome.print->max_error : measured.max_error},
                    {"rmse", measured.rmse},
                    {"samples", measured.samples}};
   mesh.metadata["error"] = error.dump();
@@ -197,6 +197,13 @@ Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& 
     SCARP_TRY(made.simplified.mesh.normals, point_normals(points, made.simplified.mesh, options.duplicates));
   }
   return std::move(made);
+}
+
+Result<SimplifiedPoints> make_print(const SimplifyPlan& plan, const PointOptions& options, PointsOutcome& outcome) {
+  auto printed = simplify_for_print(outcome.points, *plan.solid, options);
+  if (!printed) return tl::unexpected(name_print(std::move(printed.error())));
+  take_print(plan, std::move(printed->print), outcome);
+  return std::move(printed->made);
 }
 
 /// For points, --cutline is another name for --boundary.
@@ -266,7 +273,6 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   SCARP_RETURN_IF_ERROR(add_breaklines(given, policy, runner.progress, points));
   SCARP_TRY(outcome.lakes, add_lakes(given, policy, runner.progress, points));
   if (plan.error_goal) {
-    SCARP_RETURN_IF_ERROR(refuse_print(kMaxError, *plan.error_goal));
     SCARP_RETURN_IF_ERROR(settle_goal(kMaxError, points.heights, *plan.error_goal, points.warnings));
   }
   SCARP_TRY(outcome.cut, cut_to_boundary(given, end_option(stated), policy, tolerance_along_boundary(plan, points),
@@ -281,11 +287,17 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
                             kBoundary, *given[kBoundary], lines));
   }
   SCARP_RETURN_IF_ERROR(check_crs_of(plan.format, outcome.points.crs, outcome.points.heights.unit));
-  if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
+  const bool is_placed = plan.solid && plan.solid->is_placed();  // a print has an origin of its own
+  if (plan.read.crs.empty() && plan.read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local &&
+      !is_placed)
     outcome.centre = local_origin(outcome.points);
   SCARP_TRY(outcome.projections, plan_projection_files(plan, outcome.points.crs));
   const HeightRange heights = height_range(outcome.points);
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(heights.max - heights.min);
+  if (plan.error_goal && plan.error_goal->is_on_print) {
+    SCARP_TRY(const double scale, estimate_print_scale(outcome.points, *plan.solid));
+    outcome.asked = plan.error_goal->value / scale;
+  }
   std::vector<float> tolerances;
   if (outcome.asked) {
     SCARP_TRY(tolerances, read_tolerances(given, *outcome.asked, runner.progress, outcome.points));
@@ -300,6 +312,7 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   options.max_error = outcome.asked;
   options.max_triangles = plan.simplify.goals.max_triangles;
   options.max_vertices = plan.simplify.goals.max_vertices;
+  options.objective = plan.simplify.goals.objective;
   options.float32_positions = plan.format.is_float32();  // float32 does not hold the places of points exactly
   options.duplicates = outcome.policy;
   options.boundary_length = boundary.length;
@@ -309,7 +322,8 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
   const bool has_normals = plan.simplify.output.normals;
-  Result<SimplifiedPoints> simplified = make_level(outcome.points, options, has_normals);
+  Result<SimplifiedPoints> simplified =
+      plan.solid ? make_print(plan, options, outcome) : make_level(outcome.points, options, has_normals);
   if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.input()));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;
@@ -339,7 +353,10 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
 
 void place_mesh(const SimplifyPlan& plan, PointsOutcome& outcome) {
   if (plan.images.drape) add_uvs(extent_of(outcome.points), outcome.simplified.mesh);
-  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
+  if (outcome.centre) {
+    move(-1, *outcome.centre, outcome.simplified.mesh);
+    if (outcome.print) move(-1, *outcome.centre, outcome.print->tiles.front().mesh);
+  }
   add_metadata(plan, outcome);
 }
 
@@ -361,6 +378,7 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   }
   SCARP_RETURN_IF_ERROR(check_measure_outputs(given));
   SCARP_TRY(judged.mesh, read_mesh(*given[kMesh]));
+  undo_placement(judged.mesh);
   // The judge uses the settings of the mesh, unless options set others.
   GivenOptions asked = given, of_other_file = given;
   for (const Remembered& of : kRemembered) {

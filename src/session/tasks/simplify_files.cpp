@@ -127,34 +127,6 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   return {};
 }
 
-/// The print tiles, with the terrain's metadata.
-std::vector<Mesh> named_solids(const SimplifyPlan& plan, const Outcome& outcome) {
-  std::vector<Mesh> solids;
-  const bool is_whole = outcome.print->tiles.size() == 1 && outcome.print->empty_tiles == 0;
-  for (const PrintTile& tile : outcome.print->tiles) {
-    solids.push_back(tile.mesh);
-    solids.back().metadata.insert(outcome.simplified.mesh.metadata.begin(), outcome.simplified.mesh.metadata.end());
-    turn_as_planned(plan, solids.back());
-    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", tile.row, tile.column);
-  }
-  return solids;
-}
-
-/// Adds a file for each print tile; the first replaces OUTPUT's file.
-Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
-  const std::vector<std::string> paths = print_paths(plan, *outcome.print);
-  const std::vector<Mesh> solids = named_solids(plan, outcome);
-  std::vector<ReadyFile> tiles;
-  for (std::size_t k = 0; k < solids.size(); ++k) {
-    SCARP_TRY(std::vector<std::uint8_t> bytes,
-              encode_mesh(solids[k], plan.format.mesh, {.double_positions = plan.doubles}));
-    tiles.push_back({paths[k], plan.format.name(), std::move(bytes)});
-  }
-  files.erase(files.begin());
-  files.insert(files.begin(), std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
-  return {};
-}
-
 /// Encodes the approximation on the raster's grid.
 Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;

@@ -269,11 +269,7 @@ Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightFi
   }
   Result<PrintedTerrain> printed = simplify_for_print(field, plan, options);
   if (printed) return printed;
-  Error error = std::move(printed.error());
-  if (error.message.starts_with("base=")) error.message.insert(0, name_of(kSolid) + " ");
-  constexpr std::string_view kPrintTiles = "print tiles:";
-  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), name_of(kSplit) + ":");
-  return tl::unexpected(std::move(error));
+  return tl::unexpected(name_print(std::move(printed.error())));
 }
 
 /// A print is made together with its mesh.
@@ -285,10 +281,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   if (plan.levels) return simplify_as_levels(plan, options, outcome);
   if (!plan.solid) return simplify(outcome.view(), options);
   SCARP_TRY(PrintedTerrain printed, simplify_as_print(*plan.solid, outcome.field, options));
-  outcome.print = std::move(printed.print);
-  // The mesh may be smaller than the samples' extent, and its print at a larger scale than estimated.
-  if (plan.solid->max_error && outcome.asked)
-    outcome.asked = std::min(*outcome.asked, *plan.solid->max_error / outcome.print->placement.scale[2]);
+  take_print(plan, std::move(printed.print), outcome);
   return std::move(printed.simplified);
 }
 
