@@ -48,7 +48,8 @@ struct BudgetTask {
 
 /// The mesh with the least Simplified::judged_max_error, or judged_rmse (options.objective), among the meshes of the
 /// search within the budgets. If the mesh for options.max_error, or for factor 1, fits: that mesh; for the objective
-/// max error, the one with the fewest triangles. The exact mesh if the budgets have room for it and there is no other
+/// max error, the one with the fewest triangles. (A mesh for a larger number may have more triangles; if such a mesh
+/// already fills the budget, the search ends.) The exact mesh if the budgets have room for it and there is no other
 /// goal.
 ///
 /// Guarantees: no budget is exceeded; the objective is not larger than in the mesh of fast effort for the same budgets;
