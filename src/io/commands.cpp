@@ -42,6 +42,11 @@ std::string rasterize_command(const std::string& file) {
   return fmt::format("scarp simplify {} {} -e ERROR", file_word(file), new_file(".tif"));
 }
 
+std::string skip_command(std::size_t bytes, const std::string& file) {
+  return fmt::format("tail -c +{} {} > {}", bytes + 1, file_word(file),
+                     new_file(std::filesystem::path(file).extension().string()));
+}
+
 std::string utf8_command(const std::string& encoding, const std::string& file) {
   return fmt::format("iconv -f {} -t UTF-8 {} > {}", encoding, file_word(file),
                      new_file(std::filesystem::path(file).extension().string()));

@@ -22,6 +22,8 @@ std::string warp_command(const std::string& options, const std::string& file);
 std::string comment_out_command(const std::string& file, std::uint64_t lines);
 /// "scarp simplify FILE NEW.tif -e ERROR", for a file of points.
 std::string rasterize_command(const std::string& file);
+/// "tail -c +COUNT FILE > NEW.csv": omits the first bytes.
+std::string skip_command(std::size_t bytes, const std::string& file);
 /// "iconv -f ENCODING -t UTF-8 FILE > NEW.csv".
 std::string utf8_command(const std::string& encoding, const std::string& file);
 

@@ -18,7 +18,7 @@ import sys
 from remedies_table import BASE, NOT_RUN, ROWS
 
 scarp, source, examples = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-PROGRAMS = r"gdal_\w+(?:\.py)?|gdalwarp|gdalbuildvrt|ogr2ogr|xmllint|pdal|printf|echo|gunzip|iconv|bunzip2|unxz|unzstd|7z|unrar|tar|git lfs"
+PROGRAMS = r"gdal_\w+(?:\.py)?|gdalwarp|gdalbuildvrt|ogr2ogr|xmllint|pdal|printf|echo|gunzip|iconv|tail|bunzip2|unxz|unzstd|7z|unrar|tar|git lfs"
 COMMAND = re.compile(rf"\(((?:{PROGRAMS}|scarp) [^()]*)\)|'(scarp [^']*)'|(?:[:,]|as in) (scarp (?:simplify|measure|view|tile) [^(;:,]*)|"
                      rf"\b((?:{PROGRAMS}) -[^()]*?) (?:makes|gives)")
 root = pathlib.Path.cwd()

@@ -194,6 +194,7 @@ C("tar", "scarp simplify a.tgz o.glb -e 20", "cp dem.tif dem2.tif; tar -czf a.tg
 O("LAS by another name", "scarp simplify scan.bin o.glb -e 2", r"as points \(--points\)", "scarp simplify scan.bin o.glb -e 2 --points", "mv scan.las scan.bin")
 O("a class that no point has", "scarp simplify scan.las o.glb -e 2 --class water", "none of its 60 points is left: .*its classes are 2", "scarp simplify scan.las o.glb -e 2 --class ground")
 O("PLY of points", "scarp simplify cloud.ply o.glb -e 1", "PLY point cloud: .*pdal translate cloud.ply", "true", "printf 'ply\\nformat ascii 1.0\\nelement vertex 1\\nproperty float x\\nend_header\\n1\\n' > cloud.ply")
+C("ASCII grid with a mark", "scarp simplify marked.asc o.glb -e 1", "printf '\\357\\273\\277ncols 3\\nnrows 3\\nxllcorner 0\\nyllcorner 0\\ncellsize 1\\n1 2 3\\n4 9 6\\n7 8 1\\n' > marked.asc", then="scarp simplify NEW.asc o.glb -e 1")
 C("LandXML in UTF-16", "scarp simplify wide.xml o.glb -e 1", "printf '<?xml version=\"1.0\"?><LandXML><Units><Metric linearUnit=\"meter\"/></Units><CgPoints><CgPoint>1 2 3</CgPoint><CgPoint>1 9 4</CgPoint><CgPoint>8 2 5</CgPoint></CgPoints></LandXML>' | iconv -f UTF-8 -t UTF-16 > wide.xml", then="scarp simplify NEW.xml o.glb -e 1")
 O("binary DXF", "scarp simplify b.dxf o.glb -e 1", r"a binary DXF: save it as a DXF in text \(ASCII\)", "true", "printf 'AutoCAD Binary DXF\\r\\n' > b.dxf")
 O("a web page", "scarp simplify page.tif o.glb -e 1", "a web page in place of the file: fetch the file again", "true", "echo '<!DOCTYPE html><html></html>' > page.tif")
