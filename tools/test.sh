@@ -155,8 +155,8 @@ compared=(
   channels_of_efforts.take_fewer_triangles_with_each_level
   effort.each_level_takes_fewer_triangles
   line_budget.is_used_where_triangles_grow_smoothly
-  point_squares.fall_against_the_mesh_of_the_least_max_error
   norms.of_the_same_field_thrice_take_as_many_triangles_as_heights_alone
+  point_squares.fall_against_the_mesh_of_the_least_max_error
   shape.high_effort_gives_up_short_edges
   squares.fall_by_a_tenth_against_the_mesh_of_the_least_max_error
   squares.have_a_cap_which_is_that_of_fast_effort_or_the_one_that_was_asked_for
