@@ -105,7 +105,7 @@ void make_room(Snapped& snapped) {
 
 Snapped snap_to_power_of_two(const PointSet& points, const AxisExtent& x, const AxisExtent& y, PointSteps steps) {
   const double size = std::max(x.size(), y.size());
-  const int bits = steps == PointSteps::kFloat32 ? 23 : steps == PointSteps::kFinest ? 30 : 24;
+  const int bits = steps == PointSteps::kFinest ? 30 : steps == PointSteps::kJudge ? 24 : 23;
   int exponent = size > 0 ? std::ilogb(size) - bits : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
   const auto whole = [exponent](double length) {
@@ -260,6 +260,10 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   Snapped snapped;
   std::optional<Snapped> decimal;
   if (steps != PointSteps::kFloat32) decimal = snap_to_decimals(points, x, y);
+  // Fitting does not change triangles with more steps.
+  constexpr std::int32_t kMostFitSteps = 1 << 24;
+  if (decimal && steps == PointSteps::kFit && std::max(decimal->lattice.cols, decimal->lattice.rows) > kMostFitSteps)
+    decimal.reset();
   if (decimal && steps == PointSteps::kFit) make_room(*decimal);
   result.is_exact = decimal.has_value();
   snapped = decimal ? std::move(*decimal) : snap_to_power_of_two(points, x, y, steps);

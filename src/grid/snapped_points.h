@@ -52,13 +52,13 @@ struct SnappedPoints {
 std::uint32_t find_point(const SnappedPoints& points, Point at);
 
 /// Snaps the points to a lattice and drops duplicates. If the coordinates have few enough decimals, the lattice is the
-/// coarsest decimal one that contains them exactly. Otherwise it is the finest one whose step is a power of two. Points
-/// then move by up to half a step, at most extent / 2^30 (2^23 with kFloat32, 2^24 with kFit). Duplicates are points
-/// with equal coordinates. In a set with lines, whose vertices are often crowded, different points at one lattice point
-/// become echoes. In other sets, kFinest rejects them. Other steps make them echoes, but (except kJudge) reject points
-/// nearer than 2^-30 of the extent. With kMean, the first point represents the lattice point. Fails with kInput for a
-/// coordinate or height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent,
-/// no points, and more than 2^31 − 1 points.
+/// coarsest decimal one that contains them exactly (with kFit, if that has at most 2^24 steps). Otherwise it is the
+/// finest one whose step is a power of two. Points then move by up to half a step, at most extent / 2^30 (2^23 with
+/// kFloat32 and kFit). Duplicates are points with equal coordinates. In a set with lines, whose vertices are often
+/// crowded, different points at one lattice point become echoes. In other sets, kFinest rejects them. Other steps make
+/// them echoes, but (except kJudge) reject points nearer than 2^-30 of the extent. With kMean, the first point
+/// represents the lattice point. Fails with kInput for a coordinate or height that is not finite or beyond 1e100, an
+/// extent below 1e-100, points too near for their extent, no points, and more than 2^31 − 1 points.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
 

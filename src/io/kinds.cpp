@@ -123,6 +123,12 @@ std::string describe_wide_text(const std::string& path, std::string_view head) {
                           : fmt::format("text in {}: make UTF-8 of it ({})", encoding, utf8_command(encoding, path));
 }
 
+std::string describe_marked_text(const std::string& path, std::string_view head) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (!head.starts_with(kMark) || head.substr(kMark.size()).starts_with('<')) return "";
+  return fmt::format("text that begins with the mark of UTF-8: omit the mark ({})", skip_command(kMark.size(), path));
+}
+
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name) {
   const std::string extension = lowered(std::filesystem::path(path).extension().string());
   const KindRow* row = find_kind(head, by_name ? extension : "");
@@ -130,10 +136,6 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
     // SRTM tiles have no header, and may begin like a mark: with a height of -2.
     std::string wide = extension == ".hgt" ? "" : describe_wide_text(path, head);
     if (!wide.empty()) return wide;
-    constexpr std::string_view kMark = "\xef\xbb\xbf";
-    if (head.starts_with(kMark) && !head.substr(kMark.size()).starts_with('<'))
-      return fmt::format("text that begins with the mark of UTF-8: omit the mark ({})",
-                         skip_command(kMark.size(), path));
     const std::string title = find_mesh_title(head, by_name ? extension : "");
     const bool is_landxml = title == traits_of(MeshFormat::kLandXml).title;
     return title.empty() ? ""

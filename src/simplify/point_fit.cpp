@@ -17,7 +17,7 @@ namespace scarp {
 namespace {
 
 constexpr double kUsualShape = 0.1;
-constexpr std::int32_t kMostSide = kMaxFitSteps / kLatticeSteps / 2;
+constexpr std::int32_t kMostCells = kMaxFitSteps / kLatticeSteps;
 
 /// The points, including those that share a lattice point. A point whose bound b is smaller than the threshold t
 /// becomes two samples, t − b above and t − b below it: if the errors at both samples are at most t, the error at the
@@ -115,7 +115,6 @@ Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double>
   fit_options.min_shape = quality.min_shape.value_or(fit_options.vertices_are_free ? kUsualShape : 0);
   fit_options.floor_yields = !quality.min_shape && !quality.shape.any();
   if (quality.shape.any()) fit_options.shape = shape_rule(quality.shape, points.lattice);
-  fit_options.most_side = kMostSide;
   fit_options.squares = recipe.scale.squares;
   if (fit_options.squares && fit_options.squares->most_vertices != kNoBudget)
     fit_options.squares->most_vertices += domain.unused;
@@ -128,6 +127,7 @@ Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double>
     };
   }
   const Raster cells{nullptr, samples.last().x / kLatticeSteps + 2, samples.last().y / kLatticeSteps + 2};
+  if (std::max(cells.cols, cells.rows) > kMostCells) fit_options.most_side = kMostCells / 2;
   VertexLattice lattice = make_lattice(domain, heights, fixed);
   SCARP_TRY(auto&& fitted, fit(cells, std::move(domain.tin), std::move(lattice), fit_options));
   const PointFit result{fitted.counts.removed, fitted.is_cut_short};

@@ -45,6 +45,11 @@ class SquaresSearch {
       auto made = run(bound, std::min(1.0, first / bound));
       if (!made && made.error().kind == ErrorKind::kCancelled) return made;
       if (made && used_by(*made) <= 1) best = std::move(*made);
+      const bool has_bound = number_.is_factor() || options_.goals.max_error;
+      if (best || !has_bound || bound >= reached) continue;
+      // A mesh of few triangles may be within the max error all the same.
+      auto searched = search_budget(options_, task_);
+      if (!searched || searched->stop == StopReason::kMaxError) return searched;
     }
     if (!best) return search_budget(options_, task_);
     if (rank(*fast) < rank(*best)) std::swap(*best, *fast);

@@ -75,6 +75,23 @@ TEST(point_squares, fall_against_the_mesh_of_the_least_max_error) {
   }
 }
 
+TEST(point_squares, stay_within_a_max_error_for_which_the_budget_has_room) {
+  const PointSet points = hills(testing::fewer(6000, 4));
+  PointOptions options{.max_triangles = 500};
+  for (const Effort effort : {Effort::kNormal, Effort::kHigh}) {
+    options.quality.effort = effort;
+    options.objective = Objective::kMax;
+    options.max_error = std::nullopt;
+    options.max_error = 1.05 * simplify_points(points, options)->simplified.measurement.max_error;
+    EXPECT_EQ(simplify_points(points, options)->simplified.stop, StopReason::kMaxError);
+    options.objective = Objective::kRms;
+    const auto made = simplify_points(points, options)->simplified;
+    EXPECT_EQ(made.stop, StopReason::kMaxError);
+    EXPECT_LE(made.measurement.max_error, *options.max_error);
+    EXPECT_LE(made.mesh.triangle_count(), 500u);
+  }
+}
+
 TEST(point_squares, need_a_budget_and_more_than_fast_effort) {
   const PointSet points = hills(20);
   PointOptions options{.max_error = 1, .objective = Objective::kRms};

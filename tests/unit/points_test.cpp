@@ -385,6 +385,30 @@ TEST(point_sets, whose_hull_bends_by_less_than_float32_tells_apart_keep_their_bo
   }
 }
 
+TEST(point_sets, of_many_decimals_take_as_few_triangles_as_those_of_few) {
+  std::map<int, std::size_t> triangles;
+  for (const int decimals : {2, 7}) {
+    PointSet points;
+    for (int i = 0; i < 2000; ++i) {
+      const double x = std::fmod(i * 0.6180339887498949, 1) * 400, y = std::fmod(i * 0.7548776662466927, 1) * 300;
+      const auto rounded = [&](double value) {
+        return std::nearbyint(value * std::pow(10, decimals)) / std::pow(10, decimals);
+      };
+      points.x.push_back(rounded(x));
+      points.y.push_back(rounded(y));
+      points.z.push_back(20 * std::sin(0.05 * x) * std::cos(0.04 * y));
+    }
+    PointOptions options{.max_error = 0.5, .float32_positions = false};
+    options.quality.effort = Effort::kHigh;
+    const auto result = simplify_points(points, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_LE(measure_points(points, result->simplified.mesh, DuplicatePolicy::kFirst)->max_error, 0.5 + 1e-10);
+    triangles[decimals] = result->simplified.mesh.triangle_count();
+  }
+  EXPECT_NEAR(static_cast<double>(triangles[7]), static_cast<double>(triangles[2]),
+              0.1 * static_cast<double>(triangles[2]));
+}
+
 TEST(point_judge, sees_a_missing_triangle_and_a_moved_vertex) {
   PointSet points;
   for (int i = 0; i < 100; ++i) {

@@ -136,7 +136,9 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
   if (file == nullptr) return fail(ErrorKind::kInput, path + ": the file cannot be opened for reading (permissions?)");
   VSIFCloseL(file);
   const std::string kind = describe_kind(path, read_head(vsi), status.st_size);
-  if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
+  for (const std::string& what : {kind, describe_marked_text(path, read_head(vsi))}) {
+    if (!what.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, what));
+  }
   // A driver that recognises the file but fails (a truncated TIFF) has a better message.
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_RASTER); driver && gave_reason) {
     if (EQUAL(GDALGetDriverShortName(driver), "XYZ")) {

@@ -53,7 +53,9 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
   if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": " + describe_missing(path));
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
   const std::string kind = describe_kind(path, read_head(vsi), static_cast<std::uint64_t>(status.st_size));
-  if (!kind.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
+  for (const std::string& what : {kind, describe_marked_text(path, read_head(vsi))}) {
+    if (!what.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, what));
+  }
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_VECTOR); driver)
     return fail(ErrorKind::kInput, fmt::format("{}: a damaged or truncated {} file: {}", path,
                                                GDALGetDriverShortName(driver), session.reason()));

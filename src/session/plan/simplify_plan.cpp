@@ -113,7 +113,7 @@ Result<void> plan_solid_format(const SimplifyPlan& plan) {
   if (!format.holds_prints())
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is for printing, and {} has no place for millimetres: choose .stl, .3mf, .obj or "
-                            ".ply, or {} for a solid in the raster's units",
+                            ".ply, or {} for a solid in the input's units",
                             kSolid, format.title(), kBase));
   if (plan.has_file_per_tile() && is_stdout(plan.output))
     return fail(ErrorKind::kUsage, fmt::format("{} writes several files: standard output is only one", kSplit));

@@ -160,6 +160,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   for (Json& level : report["levels"]) {
     level["max_error_at"] = place_of(outcome.points, level["max_error_at"][0].get<std::int64_t>());
   }
+  report["passes"] = describe_passes(outcome);
   report["seconds"] = describe_seconds(outcome);
   report["outputs"] = describe_outputs(files);
   report["warnings"] = outcome.warnings;
