@@ -17,7 +17,7 @@ struct CellBounds {
   std::array<double, 4> borders = {};
 };
 
-/// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one, in 16
+/// A rung is 2^(1/4) times the one below. Cells climb from rung to rung in the order of their slots, one by one, in 64
 /// small steps of one level each. At most one cell stands between two rungs. So two cells differ by one rung at most,
 /// and a cell that climbs changes one or two of its neighbours: borders have the smaller bound of their two cells. No
 /// bound is below the field's max error.
@@ -39,7 +39,7 @@ class BoundLadder {
   }
 
  private:
-  static constexpr std::int64_t kSmallSteps = 16, kRange = 600;
+  static constexpr std::int64_t kSmallSteps = 64, kRange = 600;
 
   /// Heights on the ladder in small steps: of the cell, and of the lower one of the cell and each neighbour (top,
   /// bottom, left, right).
