@@ -9,7 +9,8 @@
 namespace scarp {
 
 std::string file_word(const std::string& file) {
-  if (file.empty() || file == "-") return "FILE";
+  if (file.empty() || file == "-" || file == "standard input") return "FILE";
+  if (file.front() == '-') return file_word("./" + file);  // no option
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:%+,=@";
   if (file.find_first_not_of(kPlain) == std::string::npos) return file;
   std::string quoted = "'";

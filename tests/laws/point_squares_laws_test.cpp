@@ -79,6 +79,7 @@ TEST(point_squares, stay_within_a_max_error_for_which_the_budget_has_room) {
   const PointSet points = hills(testing::fewer(6000, 4));
   PointOptions options{.max_triangles = 500};
   for (const Effort effort : {Effort::kNormal, Effort::kHigh}) {
+    if (testing::kIsSanitized && effort == Effort::kHigh) continue;
     options.quality.effort = effort;
     options.objective = Objective::kMax;
     options.max_error = std::nullopt;
