@@ -439,6 +439,11 @@ test('scattered points are kept within the error', () => {
     points.push((k % width) + (k % 7) / 10, Math.floor(k / width) + (k % 5) / 10, z[k]);
   const mesh = simplifyPointsSync(Float64Array.from(points), { maxError: 6 });
   assert.ok(mesh.maxError <= 6 && mesh.report.uncovered === 0 && mesh.triangleCount < points.length / 3);
+  const [coarse, flat] = ['max', 'rms'].map(objective =>
+    simplifyPointsSync(Float64Array.from(points), { maxTriangles: 300, objective }),
+  );
+  assert.ok(flat.triangleCount <= 300 && flat.report.rmse < 0.95 * coarse.report.rmse);
+  refuses(() => simplifyPointsSync(points, { maxError: 1, objective: 'rms' }), 'usage', /maxTriangles or maxVertices/);
   refuses(() => simplifyPointsSync([0, 0, 0, 1, 1, 1], { maxError: 1 }), 'input', /./);
   refuses(() => simplifyPointsSync([0, 0], { maxError: 1 }), 'usage', /x, y, z/);
 });
