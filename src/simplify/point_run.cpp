@@ -359,8 +359,7 @@ class PointRun {
       }
       const auto again = Clock::now();
       SCARP_TRY(const auto& mended, m.is_sound() ? mend(result) : false);
-      if (!mended && !trim_border(result.mesh))
-        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : describe_fold()) + advice(m));
+      if (!mended && !trim_border(result.mesh)) return fail(ErrorKind::kPromise, describe_failure(m) + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -386,11 +385,11 @@ class PointRun {
     const Offender& o = stuck_ ? *stuck_ : m.offenders.front();
     return {static_cast<std::size_t>(o.col), recipe_.bound_of(static_cast<std::uint32_t>(o.col)), std::abs(o.error)};
   }
-  std::string describe_fold() const {
+  std::string describe_failure(const Measurement& m) const {
     const PointLattice& lattice = snapped_.lattice;
     const bool is_thin = width_ <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
-    return is_thin ? fmt::format("all points lie on one line, to {:.2g}, and the mesh folds over itself", width_)
-                   : "the mesh folds over itself";
+    return (is_thin ? fmt::format("all points lie on one line, to {:.2g}, and ", width_) : "") +
+           (m.is_sound() ? describe_broken(m) : "the mesh folds over itself");
   }
   std::string advice(const Measurement& m) const {
     const std::string far = describe_far_points(points_);

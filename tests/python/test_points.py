@@ -101,6 +101,14 @@ class Points(unittest.TestCase):
         with self.assertWarnsRegex(scarp.ScarpWarning, "min_angle 33: smaller angles are left"):
             scarp.simplify_points(points, 1, min_angle=33)
 
+    def test_a_solid_and_the_objective_rms(self):
+        points = survey()
+        solid = scarp.simplify_points(points, 2, solid="size=100mm,thickness=2mm", of="stl")
+        self.assertAlmostEqual(np.ptp(solid.vertices[:, :2], axis=0).max(), 100, places=2)
+        self.assertLessEqual(scarp.measure(points, solid).max_error, 2)
+        rmse = [scarp.measure(points, scarp.simplify_points(points, max_triangles=100, objective=of)).rmse for of in ("max", "rms")]
+        self.assertLess(rmse[1], rmse[0])
+
     def test_degrees_become_metres_as_in_the_program(self):
         points = survey()
         mesh = scarp.simplify_points(points, 5, crs=4326)
