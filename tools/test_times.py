@@ -17,7 +17,9 @@ import resource
 import subprocess
 import sys
 
-REFERENCE = 2.9
+# A build of commit 0057573 needs 471 CPU seconds on the machine of REFERENCE. On another machine it needed 983, 2.09
+# times as many, and this compilation 4.5 before and 6.2 after: their mean, divided by 2.09.
+REFERENCE = 2.56
 SOURCE = "#include <algorithm>\n#include <iostream>\n#include <map>\n#include <regex>\nint main() { return std::regex_match(\"\", std::regex(\"a\")); }\n"
 
 
