@@ -49,7 +49,8 @@ class SquaresSearch {
       if (best || !has_bound || bound >= reached) continue;
       // A mesh of few triangles may be within the max error all the same.
       auto searched = search_budget(options_, task_);
-      if (!searched || searched->stop == StopReason::kMaxError) return searched;
+      if (searched ? searched->stop == StopReason::kMaxError : searched.error().kind == ErrorKind::kCancelled)
+        return searched;
     }
     if (!best) return search_budget(options_, task_);
     if (rank(*fast) < rank(*best)) std::swap(*best, *fast);

@@ -98,9 +98,10 @@ RC_GTEST_PROP(point_tolerances, times_their_factor_hold_within_a_budget, ()) {
   }
   options.max_triangles = std::nullopt;
   const auto whole = simplify_points(points, options);
-  // A budget with room for the tolerances changes nothing. Near the budget, a larger factor may need more triangles.
-  if (whole && static_cast<double>(whole->simplified.mesh.triangle_count()) < 0.9 * static_cast<double>(budget))
-    RC_ASSERT(simplified.tolerance_factor == 1);
+  // A budget with room for the tolerances changes nothing, unless the mesh of a larger factor already fills it.
+  const bool is_full = 100 * simplified.mesh.triangle_count() >= 97 * budget;
+  if (whole && whole->simplified.mesh.triangle_count() + 1 < budget)
+    RC_ASSERT(simplified.tolerance_factor == 1 || is_full);
 }
 
 RC_GTEST_PROP(point_tolerances, at_or_above_the_max_error_change_no_byte, ()) {
