@@ -9,12 +9,53 @@ const root = path.resolve(here, '../..');
 const version = /project\(scarp VERSION ([\d.]+)/.exec(fs.readFileSync(`${root}/CMakeLists.txt`, 'utf8'))[1];
 const staged = path.join(build, 'npm');
 
+/// The rows of the program's table of options that are also settings of the package, by command and name.
+function readRows() {
+  const rows = {};
+  const told = execFileSync(process.execPath, [`${build}/bin/scarp_settings.js`], { encoding: 'utf8' });
+  const isNumber = text => text !== '' && Number.isFinite(Number(text));
+  for (const line of told.trim().split('\n')) {
+    const [command, name, type, words, least, above, most, range, given, help] = line.split('\t');
+    const row = { type };
+    for (const [limit, value] of Object.entries({ least, above, most, byDefault: given }))
+      if (isNumber(value)) row[limit] = Number(value);
+    if (range.includes('nan')) row.nan = true;
+    if (type === 'choice') {
+      row.choices = words.split(' ').map(word => (isNumber(word) ? Number(word) : word));
+      if (row.choices.includes(given)) row.byDefault = given;
+      else if (!isNumber(given)) [row.byDefault] = row.choices = ['auto', ...row.choices];
+    }
+    const limits = least !== '-inf' && most !== 'inf' ? ` From ${least} to ${most}.` : '';
+    const numbers = Number.isFinite(row.choices?.[0]) ? ` One of ${row.choices.join(', ')}.` : '';
+    const byDefault = row.byDefault === undefined || row.byDefault === 'auto' ? '' : ` Default: ${row.byDefault}.`;
+    row.comment = /^.*?\.(?= |$)/.exec(help)[0] + limits + numbers + byDefault;
+    (rows[command] ??= {})[name] = row;
+  }
+  return rows;
+}
+
+/// Replaces FromSimplify and FromTile by the types of rows. Fields without a comment get the first sentence of the
+/// help.
+function declare(text, rows) {
+  const types = { flag: 'boolean', number: 'number', count: 'number', file: 'Numbers | null' };
+  return text
+    .replace(/(?<!\*\/\n)^( +)(\w+)(?=\?: From(Simplify|Tile)\b)/gm, (field, indent, name, from) => {
+      return `${indent}/** ${rows[from.toLowerCase()][name].comment} */\n${field}`;
+    })
+    .replace(/(\w+)\?: From(Simplify|Tile)\b/g, (_, name, from) => {
+      const { type, choices } = rows[from.toLowerCase()][name];
+      const listed = choices?.map(one => (Number.isFinite(one) ? 'number' : `'${one}'`));
+      return `${name}?: ${types[type] ?? [...new Set(listed)].join(' | ')}`;
+    });
+}
+
 /// The worker and its imports in one script. Each file becomes a function, after those that it needs, without comments
 /// and indentation (no string in these files spans lines).
 function joinWorker() {
   const files = [
     'number.js',
     'error.js',
+    'settings.js',
     'options.js',
     'module.js',
     'heights.js',
@@ -26,7 +67,7 @@ function joinWorker() {
     'worker.js',
   ];
   const parts = files.map(file => {
-    const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n|^ +/gm, '');
+    const text = fs.readFileSync(`${staged}/${file}`, 'utf8').replace(/^\s*\/\/.*\n|^ +/gm, '');
     const names = [...text.matchAll(/^export (?:async )?(?:const|function|class) (\w+)/gm)].map(([, name]) => name);
     const body = text
       .replace(/^import ({[^}]*}) from '.\/(.*)';$/gm, "const $1 = files['$2'];")
@@ -38,6 +79,15 @@ function joinWorker() {
 
 fs.rmSync(staged, { recursive: true, force: true });
 fs.cpSync(`${here}/package`, staged, { recursive: true });
+const rows = readRows();
+fs.writeFileSync(
+  `${staged}/settings.js`,
+  `export const ROWS = ${JSON.stringify(rows, (key, value) => (key === 'comment' ? undefined : value))};\n`,
+);
+for (const name of fs.readdirSync(staged).filter(file => file.endsWith('.d.ts'))) {
+  const file = path.join(staged, name);
+  fs.writeFileSync(file, declare(fs.readFileSync(file, 'utf8'), rows));
+}
 fs.writeFileSync(
   `${staged}/package.json`,
   fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version),

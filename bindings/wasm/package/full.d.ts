@@ -10,17 +10,17 @@ export interface TilerOptions {
   /** West, south, east, north of the raster with its outer pixels, in degrees or in metres of Web Mercator. */
   bounds: Numbers;
   crs?: 'degrees' | 'mercator';
-  nodata?: number | null;
-  /** Cells between nodes along a side of the finest tiles: a power of two, 16 to 256. */
-  cells?: number;
-  maxZoom?: number;
-  /** Max error of the finest level, in metres. */
-  maxError?: number;
+  /** The nodata value, as in Place. */
+  nodata?: FromSimplify | null;
+  cells?: FromTile;
+  maxZoom?: FromTile;
+  /** Max error of the finest level, in metres, above 0. */
+  maxError?: FromTile;
   /** A level's max error is the error that clients assume, divided by this factor. */
-  quality?: number;
-  effort?: 'fast' | 'normal' | 'high';
+  quality?: FromTile;
+  effort?: FromTile;
   /** Height for nodes without a height. */
-  background?: number;
+  background?: FromTile;
 }
 export interface Tile {
   /** quantized-mesh 1.0 with normals, not compressed. */

@@ -77,7 +77,7 @@ export function version(): string;
 export interface Place {
   /** The nodata value, compared with the given heights; for Float32Array its nearest float32. NaN and infinities are
    * always nodata. */
-  nodata?: number | null;
+  nodata?: FromSimplify | null;
   /** GDAL's geotransform of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
   transform?: Numbers | null;
   /** The transform is in degrees of WGS 84: the mesh is in metres around the raster's centre. */
@@ -95,28 +95,27 @@ export interface Progress {
 /** At least one goal; the first one reached ends the run. */
 export interface Goals {
   /** Largest vertical error at any sample, in the units of the heights. */
-  maxError?: number;
-  maxTriangles?: number;
-  maxVertices?: number;
+  maxError?: FromSimplify;
+  maxTriangles?: FromSimplify;
+  maxVertices?: FromSimplify;
 }
 
 export interface Work {
   /** fast: the mesh of insertion. normal: about half the triangles of fast. high: about a third, in some seven
    * times the time of normal. */
-  effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
-  vertices?: 'auto' | 'samples' | 'free';
+  effort?: FromSimplify;
+  /** Positions of vertices with effort 'high' and 'max': at samples, or also between them (free). */
+  vertices?: FromSimplify;
   /** The quantity that a budget minimises: the largest or the RMS error. */
-  objective?: 'max' | 'rms';
-  /** Lower bound for the height of triangles over their longest edge, 0 to 0.5. */
-  minShape?: number;
+  objective?: FromSimplify;
+  minShape?: FromSimplify;
 }
 
 export interface Options extends Goals, Work, Place {
-  order?: 'auto' | 'greedy' | 'dominant';
-  /** Max distance by which the outline of valid data may move outwards, in samples. */
-  outlineTolerance?: number;
-  normals?: boolean;
-  uvs?: boolean;
+  order?: FromSimplify;
+  outlineTolerance?: FromSimplify;
+  normals?: FromSimplify;
+  uvs?: FromSimplify;
   /**
    * Rounds heights to multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can store positions in
    * 16 bits. Positions are float64, as with doubles: WebGL needs Float32Array.from(mesh.positions), which rounds them.
@@ -124,13 +123,13 @@ export interface Options extends Goals, Work, Place {
   lattice?: boolean;
   /** Makes positions float64. A GLB without compress rounds them to float32: measure that file, or omit doubles and
    * lattice. */
-  doubles?: boolean;
+  doubles?: FromSimplify;
   /** Each edge of the raster depends only on its own samples, so neighbours that share it match. */
-  lockBorder?: boolean;
+  lockBorder?: FromSimplify;
   /** A weight for each sample: weight * |error| is bounded. 0: no bound. Rounded up to float32. */
-  mask?: Numbers | null;
+  mask?: FromSimplify;
   /** A bound for each sample; Infinity: none. Rounded down to float32. */
-  tolerance?: Numbers | null;
+  tolerance?: FromSimplify;
   /** Called at most a few times a second; return false to cancel. */
   onProgress?: (progress: Progress) => boolean | void;
 }
@@ -210,9 +209,9 @@ export function measure(
 ): Report;
 
 export interface PointOptions extends Goals, Work {
-  /** Rule for several points at one position. */
-  duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
-  doubles?: boolean;
+  duplicates?: FromSimplify;
+  /** Makes positions float64. */
+  doubles?: FromSimplify;
   onProgress?: (progress: Progress) => boolean | void;
 }
 export interface PoolOptions {
@@ -235,7 +234,7 @@ export interface Refiner extends Disposable {}
 export class Refiner {
   constructor(z: Heights, width: number, height: number, place?: Place);
   /** Inserts until maxError holds, or there are maxVertices, or all samples are exact. Returns the number inserted. */
-  run(goals?: { maxError?: number; maxVertices?: number }): number;
+  run(goals?: { maxError?: FromSimplify; maxVertices?: FromSimplify }): number;
   /** False once every sample is exact. */
   insertWorst(): boolean;
   readonly maxError: number;
@@ -253,7 +252,7 @@ export class Refiner {
  */
 export function encodeGlb(
   mesh: { positions: Numbers; indices: Numbers; normals?: Numbers; uvs?: Numbers; origin?: Numbers; cell?: Numbers },
-  options?: { compress?: boolean },
+  options?: { compress?: FromSimplify },
 ): Bytes;
 
 /** Decodes heights in metres from a tile's pixels, four bytes each; NaN where a pixel is transparent. */

@@ -5,18 +5,19 @@ export * from './index.js';
 export interface LiveOptions extends Place {
   /** Bound on the vertical distance of every float32 sample from the mesh after every change. Required without a
    * budget. */
-  maxError?: number;
+  maxError?: FromSimplify;
   /**
    * A budget: the largest number of triangles after every change. Bounds rise and fall to keep it; the property
    * maxError is the resulting bound. Fields of 50 cells or more mostly use at least 98 % of the budget, unless fewer
    * triangles keep maxError (0 by default here) or reproduce the samples. Not with tolerance.
    */
-  maxTriangles?: number;
-  effort?: 'fast' | 'normal' | 'high';
+  maxTriangles?: FromSimplify;
+  /** Work to spend on fewer triangles. Default: fast. */
+  effort?: FromTile;
   /** Steps between samples along the side of a cell, 8 to 254. Default: 32 with effort 'fast', else 64. */
   cell?: number;
   /** Bounds of samples, as in Options. */
-  tolerance?: Numbers | null;
+  tolerance?: FromSimplify;
   /** Column and row of the first sample on the lattice of cells. */
   place?: Numbers;
   /** With a budget: the property level of another field of the same size, to get its mesh from its samples. */
@@ -61,7 +62,7 @@ export interface Live extends Disposable {}
 export class Live {
   constructor(z: Heights, width: number, height: number, options: LiveOptions);
   /** Replaces the samples of a window, row by row; also their tolerances, if given to a field that has tolerances. */
-  update(window: LiveWindow, z: Heights, options?: { tolerance?: Numbers | null }): void;
+  update(window: LiveWindow, z: Heights, options?: { tolerance?: FromSimplify }): void;
   /** Replaces one sample. */
   set(col: number, row: number, z: number | null): void;
   /** Moves the field over the ground, by columns to the east and rows down; new samples are voids. */

@@ -8,7 +8,7 @@ export interface TerrainOptions {
   elevationDecoder?: { rScaler: number; gScaler: number; bScaler: number; offset: number } | 'terrarium' | 'mapbox';
   /** Height of walls below the edges. */
   skirtHeight?: number | null;
-  effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
+  effort?: FromSimplify;
 }
 export interface TerrainMesh {
   loaderData: { header: object };

@@ -13,7 +13,7 @@ export interface Tile {
 }
 /** Replaces @mapbox/martini. Needs ready(). */
 export default class Martini {
-  constructor(gridSize?: number, options?: { height?: number; effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max' });
+  constructor(gridSize?: number, options?: { height?: number; effort?: FromSimplify });
   readonly gridSize: number;
   createTile(terrain: Heights): Tile;
 }

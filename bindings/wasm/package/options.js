@@ -1,7 +1,7 @@
-// The options of all entries: one table of their kinds, and one check.
+// The options of all entries: one table of their kinds, and one check. settings.js has those of the program, from its
+// table of options; pack.mjs writes it.
 import { ScarpError } from './error.js';
-
-const EFFORTS = ['auto', 'fast', 'normal', 'high', 'max'];
+import { ROWS } from './settings.js';
 
 /// The kind of an object, such as DataView, in any realm.
 export const kindOf = value =>
@@ -11,16 +11,16 @@ export const kindOf = value =>
     .replace(/^Object$/, 'object');
 
 const isArray = value => (ArrayBuffer.isView(value) ? kindOf(value) !== 'DataView' : Array.isArray(value));
-const number = (least = -Infinity, most = Infinity) => ({
-  fits: value => Number.isFinite(value) && value >= least && value <= most,
+const number = ({ least = -Infinity, above = -Infinity, most = Infinity }) => ({
+  fits: value => Number.isFinite(value) && value >= least && value > above && value <= most,
   is:
     most < Infinity
       ? `a number, ${least} to ${most}`
-      : least === -Infinity
+      : least === above
         ? 'a finite number'
-        : `a number, at least ${least} and finite`,
+        : `a number, ${above < least ? `at least ${least}` : `above ${above}`} and finite`,
 });
-const whole = (least, most = Number.MAX_SAFE_INTEGER) => ({
+const whole = ({ least, most = Number.MAX_SAFE_INTEGER }) => ({
   fits: value => Number.isSafeInteger(value) && value >= least && value <= most,
   is: most < Number.MAX_SAFE_INTEGER ? `a whole number, ${least} to ${most}` : `a whole number, at least ${least}`,
 });
@@ -43,49 +43,41 @@ const text = kind(value => typeof value === 'string', 'a text');
 const numbers = count => items(Number.isFinite, 'finite number', `an array of ${count} finite numbers`, count);
 const bySample = orNull(kind(isArray, 'an array of numbers, one for each sample'));
 
+const KINDS = {
+  flag: () => flag,
+  number: row => (row.nan ? kind(value => typeof value === 'number', 'a number') : number(row)),
+  count: whole,
+  choice: ({ choices }) => choice(...choices),
+  file: () => bySample,
+};
+const takeRows = rows => Object.fromEntries(Object.entries(rows).map(([name, row]) => [name, KINDS[row.type](row)]));
+const OF_PROGRAM = takeRows(ROWS.simplify);
+const OF_TILES = takeRows(ROWS.tile);
+
 const TABLE = {
-  maxError: number(0),
-  maxTriangles: whole(1),
-  maxVertices: whole(1),
-  effort: choice(...EFFORTS),
-  vertices: choice('auto', 'samples', 'free'),
-  order: choice('auto', 'greedy', 'dominant'),
-  objective: choice('max', 'rms'),
-  duplicates: choice('first', 'last', 'highest', 'lowest', 'mean'),
-  minShape: number(0, 0.5),
-  outlineTolerance: number(0),
-  normals: flag,
-  uvs: flag,
+  ...OF_TILES,
+  ...OF_PROGRAM,
+  nodata: orNull(OF_PROGRAM.nodata),
   lattice: flag,
-  doubles: flag,
-  lockBorder: flag,
-  compress: flag,
   degrees: flag,
   transfer: flag,
   warm: flag,
-  mask: bySample,
-  tolerance: bySample,
-  nodata: orNull(kind(value => typeof value === 'number', 'a number')),
   transform: orNull(numbers(6)),
   onProgress: work,
   worker: work,
   signal: orNull(kind(value => typeof value.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal')),
-  cell: whole(8, 254),
+  cell: whole({ least: 8, most: 254 }),
   place: numbers(2),
   level: kind(Number.isSafeInteger, 'the level of another Live field'),
-  size: whole(1, 1024),
-  height: whole(2),
+  size: whole({ least: 1, most: 1024 }),
+  height: whole({ least: 2 }),
   bounds: orNull(numbers(4)),
   crs: choice('degrees', 'mercator'),
-  cells: whole(16),
-  maxZoom: whole(0),
-  quality: number(0.5),
-  background: number(),
   name: text,
   attribution: text,
   tiles: items(one => typeof one === 'string', 'text', 'an array of texts'),
-  meshMaxError: number(0),
-  skirtHeight: orNull(number(0)),
+  meshMaxError: OF_PROGRAM.maxError,
+  skirtHeight: orNull(number({ least: 0 })),
   elevationDecoder: kind(
     value => typeof value === 'string' || (typeof value === 'object' && value),
     'terrarium, mapbox or { rScaler, gScaler, bScaler, offset }',
@@ -132,11 +124,10 @@ export const ENTRIES = {
   martini: ['height', 'effort'],
   terrain: ['bounds', 'meshMaxError', 'elevationDecoder', 'skirtHeight', 'effort'],
 };
-/// Choices restricted by some entries.
-const NARROWER = {
-  tiler: { effort: choice('fast', 'normal', 'high') },
-  live: { effort: choice('fast', 'normal', 'high') },
-};
+/// Kinds restricted by some entries.
+const NARROWER = { tiler: OF_TILES, live: { effort: OF_TILES.effort } };
+/// The rows whose defaults an entry fills in.
+const DEFAULTS = { simplifySync: ROWS.simplify, simplifyPointsSync: ROWS.simplify, tiler: ROWS.tile };
 /// The goals required by an entry.
 const GOAL = 'give a goal, such as { maxError: 1 }';
 const NEEDS = {
@@ -191,6 +182,10 @@ export function takeOptions(options, entry) {
     );
   const known = ENTRIES[entry];
   const taken = {};
+  for (const name of known) {
+    const byDefault = DEFAULTS[entry]?.[name]?.byDefault;
+    if (byDefault !== undefined) taken[name] = byDefault;
+  }
   for (const [name, value] of Object.entries(options)) {
     if (!known.includes(name)) {
       const later = entry.replace(/Sync$/, '');

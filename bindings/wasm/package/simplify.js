@@ -24,12 +24,12 @@ export function simplifySync(z, width, height, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifySync');
   checkSignal(taken.signal);
   const {
-    effort = 'auto',
-    vertices = 'auto',
-    order = 'auto',
-    objective = 'max',
+    effort,
+    vertices,
+    order,
+    objective,
     minShape = NaN,
-    outlineTolerance = 0,
+    outlineTolerance,
     normals,
     uvs,
     lattice,
@@ -100,15 +100,7 @@ export function checkPoints(points) {
 export function simplifyPointsSync(points, options = {}, flag = undefined) {
   const taken = takeOptions(options, 'simplifyPointsSync');
   checkSignal(taken.signal);
-  const {
-    duplicates = 'first',
-    effort = 'auto',
-    vertices = 'auto',
-    minShape = NaN,
-    objective = 'max',
-    doubles,
-    onProgress,
-  } = taken;
+  const { duplicates, effort, vertices, minShape = NaN, objective, doubles, onProgress } = taken;
   const given = checkPoints(points);
   const progress = watch(onProgress, flag);
   return withBlocks(blocks => {

@@ -72,12 +72,12 @@ export class Tiler {
       bounds,
       crs = 'degrees',
       nodata,
-      cells = 128,
+      cells,
       maxZoom = -1,
       maxError = 0,
-      quality = 2,
-      effort = 'normal',
-      background = 0,
+      quality,
+      effort,
+      background,
     } = takeOptions(options, 'tiler');
     const corners = bounds && Array.from(bounds);
     this.#bounds = corners && crs === 'mercator' ? degreesOf(corners) : corners;

@@ -1,5 +1,5 @@
 // The only table of options. It defines registration, parsing, ranges, the canonical command, `--help`, `scarp help
-// --json`, the man page, the completions, the page of all options and the settings of C and Python.
+// --json`, the man page, the completions, the page of all options and the settings of C, Python and the npm package.
 #pragma once
 
 #include <fmt/format.h>

@@ -131,6 +131,15 @@ const cases = [
     'usage',
     /effort is 'max'; it is one of fast, normal, high/,
   ],
+  ...[
+    [{ maxError: 0 }, /maxError is 0; it is a number, above 0 and finite/],
+    [{ maxZoom: 24 }, /maxZoom is 24; it is a whole number, 0 to 23/],
+    [{ cells: 100 }, /cells is 100; it is one of 16, 32, 64, 128, 256/],
+  ].map(([given, sentence]) => [
+    () => new Tiler(z, width, height, { bounds: [0, 0, 1, 1], ...given }),
+    'usage',
+    sentence,
+  ]),
   ...[BigInt64Array, BigUint64Array].map(Kind => [
     () => simplifySync(new Kind(9), 3, 3, { maxError: 1 }),
     'usage',
