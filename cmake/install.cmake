@@ -2,7 +2,15 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS scarp EXPORT scarpTargets)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/scarp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+if(NOT SCARP_WITH_TILES)  # scarp.h must not include headers that are not installed
+  set(scarp_not_installed REGEX "/(tile(_job|_set)?|scarp)[.]h$" EXCLUDE)
+  file(READ ${PROJECT_SOURCE_DIR}/include/scarp/scarp.h text)
+  string(REGEX REPLACE "#include \"scarp/tile[^\n]*\n" "" text "${text}")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/scarp.h CONTENT "${text}" @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/scarp.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scarp)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/scarp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
+        ${scarp_not_installed})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(SCARP_BUILD_C)
@@ -34,7 +42,10 @@ set(scarp_requires fmt)
 if(SCARP_WITH_GDAL)
   string(APPEND scarp_requires ", gdal")
 endif()
-set(scarp_libs "-lhwy -lsqlite3 -lz -pthread")
+set(scarp_libs "-lhwy -lz -pthread")
+if(SCARP_WITH_TILES)
+  string(PREPEND scarp_libs "-lsqlite3 ")
+endif()
 if(SCARP_WITH_MESHOPTIMIZER)
   string(PREPEND scarp_libs "-lmeshoptimizer ")
 endif()

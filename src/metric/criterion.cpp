@@ -130,26 +130,6 @@ Result<void> Criterion::check_weights() const {
   return {};
 }
 
-Result<void> Criterion::check_strategy() const {
-  const Importance& importance = options_->strategy.importance;
-  const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
-  if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
-  if (importance.one_pass && (importance.global || !has_raster_feature(importance)))
-    return usage("one pass ranks samples by a feature alone: local error or curvature");
-  const Batch& batch = options_->strategy.batch;
-  if (importance.one_pass && batch.rule != Batch::Rule::kSequential)
-    return usage("one pass ranks all samples once and never looks at the mesh: leave the batches out");
-  if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
-    return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
-  if (!(options_->strategy.edges.shape_threshold <= 1))
-    return usage(
-        fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->strategy.edges.shape_threshold));
-  if (!(options_->strategy.edges.supersample >= 0))
-    return usage(
-        fmt::format("supersampling needs a number of at least 0, not {}", options_->strategy.edges.supersample));
-  return {};
-}
-
 Result<void> Criterion::check_channels() const {
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   if (field_->channels.size() > static_cast<std::size_t>(kMaxChannels))

@@ -72,7 +72,7 @@ class Criterion {
 
  private:
   Result<void> check_weights() const;
-  Result<void> check_strategy() const;
+  Result<void> check_strategy() const;  // in importance.cpp
   Result<void> check_channels() const;
   Result<void> set_bounds();
   void set_factors();

@@ -1,9 +1,13 @@
 #include "metric/importance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "metric/criterion.h"
 
 namespace scarp {
 
@@ -96,6 +100,29 @@ std::vector<Point> rank_samples(const Raster& raster, const std::vector<float>& 
   };
   std::stable_sort(points.begin(), points.end(), [&](Point a, Point b) { return value_at(a) > value_at(b); });
   return points;
+}
+
+Result<void> Criterion::check_strategy() const {
+  const Importance& importance = options_->strategy.importance;
+  const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
+  if (!importance.global && !has_feature)
+    return fail(ErrorKind::kUsage, "an importance needs the global error or a feature");
+  if (importance.one_pass && (importance.global || !has_raster_feature(importance)))
+    return fail(ErrorKind::kUsage, "one pass ranks samples by a feature alone: local error or curvature");
+  const Batch& batch = options_->strategy.batch;
+  if (importance.one_pass && batch.rule != Batch::Rule::kSequential)
+    return fail(ErrorKind::kUsage,
+                "one pass ranks all samples once and never looks at the mesh: leave the batches out");
+  if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
+    return fail(ErrorKind::kUsage,
+                fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
+  if (!(options_->strategy.edges.shape_threshold <= 1))
+    return fail(ErrorKind::kUsage,
+                fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->strategy.edges.shape_threshold));
+  if (!(options_->strategy.edges.supersample >= 0))
+    return fail(ErrorKind::kUsage, fmt::format("supersampling needs a number of at least 0, not {}",
+                                               options_->strategy.edges.supersample));
+  return {};
 }
 
 }  // namespace scarp

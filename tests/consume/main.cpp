@@ -30,6 +30,12 @@ int main() {
     std::fprintf(stderr, "the mesh does not keep its promise\n");
     return 1;
   }
+  // A library without the paper's strategies (SCARP_WITH_PAPER=OFF) refuses them.
+  scarp::PaperOptions paper{.goals = options.goals};
+  paper.strategy.batch.rule = scarp::Batch::Rule::kConstant;
+  const auto by_paper = scarp::simplify_by_paper(field, paper);
+  if (!by_paper) std::printf("%s\n", by_paper.error().message.c_str());
+
   const auto bytes = scarp::encode_mesh(result->mesh, scarp::MeshFormat::kGlb);
   if (!bytes || bytes->size() < 100) return 1;
   std::printf("scarp %s: %zu of %zu triangles, max error %.3f\n", scarp::version(), triangles, full, judged->max_error);

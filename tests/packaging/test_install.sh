@@ -100,13 +100,19 @@ else
   echo "pkg-config is missing: that part is skipped"
 fi
 
-# 5. add_subdirectory, core only. Without optimization clang needs 0.6 of GCC's time.
+# 5. add_subdirectory without GDAL, tiles and strategies, with every name defined. Without optimization clang needs 0.6
+# of GCC's time.
 CXX=$(command -v clang++ || command -v c++) cmake -S "$source_tree/tests/consume/add_subdirectory" -B "$scratch/sub" \
-  -DSCARP_SOURCE="$source_tree" \
+  -DSCARP_SOURCE="$source_tree" -DSCARP_INSTALL=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,-z,defs \
+  -DSCARP_WITH_TILES=OFF -DSCARP_WITH_PAPER=OFF \
   -DSCARP_WITH_GDAL=OFF -DCMAKE_UNITY_BUILD=ON -DSCARP_BATCH=60 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 >/dev/null
 cmake --build "$scratch/sub" -j 2 >"$scratch/sub.log" 2>&1 || { cat "$scratch/sub.log"; fail "add_subdirectory without GDAL"; }
-"$scratch/sub/consumer" || fail "add_subdirectory"
-if ldd "$scratch/sub/consumer" | grep -q libgdal; then fail "the core build is linked to GDAL"; fi
+"$scratch/sub/consumer" >"$scratch/sub.out" || fail "add_subdirectory"
+grep -q "knows no strategies" "$scratch/sub.out" || fail "no sentence for a strategy in a library without them"
+if ldd "$scratch/sub/consumer" | grep -qE 'libgdal|libsqlite3'; then fail "the small library is linked to GDAL or SQLite"; fi
+cmake --install "$scratch/sub" --prefix "$scratch/small" >/dev/null
+if [ -e "$scratch/small/include/scarp/tile.h" ]; then fail "tile.h is installed without tiles"; fi
+c++ -std=c++20 -fsyntax-only -I"$scratch/small/include" "$source_tree/tests/consume/main.cpp" || fail "scarp.h without tiles"
 
 # 6. An illegal combination of options is refused, with a sentence.
 if cmake -S "$source_tree" -B "$scratch/illegal" -DSCARP_BUILD_APPS=ON -DSCARP_WITH_GDAL=OFF >"$scratch/illegal.log" 2>&1; then
