@@ -154,6 +154,10 @@ def members(path):
     return set(re.findall(r"[\w>&*\]] [&*]?(\w+)\s*[({;=,)\[]", text))
 
 
+# A name, after any namespaces of Scarp.
+NAME = re.compile(r"(?<![\w.>:])(?!(?:std|fmt|hn|hwy|nlohmann)::)(?:[a-z]+::)*([A-Z]\w*\b|[a-z_]\w*\b(?!::))")
+
+
 def main():
     headers = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.h"))]
     homes = collections.defaultdict(set)
@@ -179,7 +183,7 @@ def main():
             if re.search(pattern, text) and not others & {header, *OTHER_HOMES.get(header, [])}:
                 print(f"{path.relative_to(ROOT)}: {pattern} needs <{header}>")
                 faults += 1
-        for name in sorted(set(re.findall(r"(?<![\w.>:])(?:scarp::)?([A-Za-z_]\w*)\b", text)) & homes.keys()):
+        for name in sorted(set(NAME.findall(text)) & homes.keys()):
             home = homes[name]
             if len(home) == 1 and home <= near[path.parent] - own and not any(
                     name in (members if name[0].islower() and not is_constant(name) else nested)(file) for file in own):

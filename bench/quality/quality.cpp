@@ -101,8 +101,8 @@ void Rows::add_time(std::string_view variant, double ratio) { times_[std::string
 
 scarp::Result<scarp::OwnedHeightField> read_field(const std::filesystem::path& project, const std::string& name,
                                                   int generated_side) {
-  if (const auto style = scarp::find_field_style(name))
-    return scarp::generate_field(*style, generated_side, generated_side);
+  if (const auto style = scarp::grid::find_field_style(name))
+    return scarp::grid::generate_field(*style, generated_side, generated_side);
   const auto path = find_raster(project, name);
   if (!path) return tl::unexpected(scarp::Error{scarp::ErrorKind::kInput, name + " is not there"});
   return scarp::read_height_field(*path);

@@ -15,22 +15,22 @@
 namespace bench {
 
 struct EngineRun {
-  scarp::DomainMesh domain;
+  scarp::refine::DomainMesh domain;
   scarp::Order order = scarp::Order::kGreedy;  // the order that was used
   scarp::Work work;
 };
 
-inline scarp::Raster view_of(const RawRaster& raw) { return {raw.samples.data(), raw.cols, raw.rows}; }
+inline scarp::grid::Raster view_of(const RawRaster& raw) { return {raw.samples.data(), raw.cols, raw.rows}; }
 
-inline scarp::DomainMesh start_greedy(const scarp::Raster& raster) {
-  return check(scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows)));
+inline scarp::refine::DomainMesh start_greedy(const scarp::grid::Raster& raster) {
+  return check(scarp::refine::build_domain(raster, 0, scarp::grid_frame(raster.rows)));
 }
 
 inline EngineRun refine_greedily(const RawRaster& raw, double error) {
-  const scarp::Raster raster = view_of(raw);
+  const scarp::grid::Raster raster = view_of(raw);
   EngineRun run{start_greedy(raster), scarp::Order::kGreedy, {}};
-  const scarp::HeightMetric metric(raster, error);
-  scarp::Refinement refinement(metric, run.domain.tin);
+  const scarp::metric::HeightMetric metric(raster, error);
+  scarp::refine::Refinement refinement(metric, run.domain.tin);
   while (!refinement.done()) refinement.insert_worst();
   run.work = refinement.work();
   return run;
@@ -38,15 +38,15 @@ inline EngineRun refine_greedily(const RawRaster& raw, double error) {
 
 /// Refines in the dominant order, or greedily if that engine declines, like simplify(). `side` 0: chosen by the engine.
 inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threads, int side = 0) {
-  scarp::TiledOptions options;
+  scarp::pieces::TiledOptions options;
   options.threshold = error;
   options.threads = threads;
   options.tile_side = side;
-  auto tiled = check(scarp::refine_tiled(field_of(raw), options));
+  auto tiled = check(scarp::pieces::refine_tiled(field_of(raw), options));
   if (!tiled) return refine_greedily(raw, error);
   EngineRun run{std::move(tiled->domain), scarp::Order::kDominant, tiled->work};
-  const scarp::HeightMetric metric(view_of(raw), error);
-  const scarp::Work seams = scarp::release_seams(run.domain.tin, metric, std::move(tiled->seams));
+  const scarp::metric::HeightMetric metric(view_of(raw), error);
+  const scarp::Work seams = scarp::pieces::release_seams(run.domain.tin, metric, std::move(tiled->seams));
   run.work.samples_scanned += seams.samples_scanned;
   run.work.triangles_scanned += seams.triangles_scanned;
   return run;

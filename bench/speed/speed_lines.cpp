@@ -38,8 +38,8 @@ class Drawing {
   static Point at(double x, double y) { return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}; }
 
   /// Walks of a hundred segments of two samples, a few of which leave the raster.
-  scarp::Polylines walks(int count) {
-    scarp::Polylines lines;
+  scarp::geom::Polylines walks(int count) {
+    scarp::geom::Polylines lines;
     std::vector<Point> line;
     for (; count > 0; --count) {
       line.clear();
@@ -54,8 +54,8 @@ class Drawing {
     }
     return lines;
   }
-  scarp::Polylines circles(int count) {
-    scarp::Polylines lines;
+  scarp::geom::Polylines circles(int count) {
+    scarp::geom::Polylines lines;
     std::vector<Point> line;
     for (; count > 0; --count) {
       line.clear();
@@ -66,13 +66,13 @@ class Drawing {
     }
     return lines;
   }
-  scarp::Polylines chords(int count) {
-    scarp::Polylines lines;
+  scarp::geom::Polylines chords(int count) {
+    scarp::geom::Polylines lines;
     for (; count > 0; --count) lines.add(std::vector{any(), any()});
     return lines;
   }
-  static scarp::Polylines star(int count) {
-    scarp::Polylines lines;
+  static scarp::geom::Polylines star(int count) {
+    scarp::geom::Polylines lines;
     const std::int32_t step = kSize / count;
     for (std::int32_t k = 0; k < count; ++k)
       lines.add(std::vector<Point>{{k * step, 0}, {kSize - k * step, kSize - 1}});
@@ -83,12 +83,12 @@ class Drawing {
   std::mt19937 random_{1};
 };
 
-void time_arrangement(const char* name, const scarp::Polylines& lines) {
-  const std::vector<scarp::Segment> border{
+void time_arrangement(const char* name, const scarp::geom::Polylines& lines) {
+  const std::vector<scarp::geom::Segment> border{
       {{0, 0}, {kSize, 0}}, {{kSize, 0}, {kSize, kSize}}, {{kSize, kSize}, {0, kSize}}, {{0, kSize}, {0, 0}}};
   std::size_t vertices = 0, edges = 0;
   const bench::Times least = bench::least_of(3, [&] {
-    const auto arranged = scarp::arrange(lines, border, kSize, kSize);
+    const auto arranged = scarp::geom::arrange(lines, border, kSize, kSize);
     vertices = arranged.vertices.size();
     edges = arranged.edges.size();
   });
@@ -98,7 +98,7 @@ void time_arrangement(const char* name, const scarp::Polylines& lines) {
 }
 
 /// The lines as soft lines, in samples of the raster.
-scarp::LineConstraints soft_lines(const scarp::Polylines& lines, int size) {
+scarp::LineConstraints soft_lines(const scarp::geom::Polylines& lines, int size) {
   scarp::LineConstraints constraints;
   const double scale = (size - 1.0) / kSize;
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -193,7 +193,8 @@ void time_meshes(const std::string& project) {
   std::printf(
       "| terrain | effort | max error | lines | triangles | CPU s | to none | s | to none | arrange | lines "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  time_terrain("fractal", bench::check(scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide)), {10, 5, 2.5});
+  time_terrain("fractal", bench::check(scarp::grid::generate_field(scarp::grid::FieldStyle::kFractal, kSide, kSide)),
+               {10, 5, 2.5});
   const char* kName = "srtm3_sierra_nevada_basin_range.tif";
   const auto path = bench::find_raster(project, kName);
   if (!path) bench::die(std::string(kName) + ": skipped, it is not there", 0);

@@ -30,10 +30,10 @@ int main(int argc, char** argv) {
   const std::size_t before = peak_memory();
   const bench::RawRaster raw = bench::read_raw(arguments);
   bench::EngineRun run = is_greedy ? bench::refine_greedily(raw, error) : bench::refine_dominantly(raw, error, threads);
-  const scarp::SampleHeights heights(bench::view_of(raw));
+  const scarp::pieces::SampleHeights heights(bench::view_of(raw));
   const scarp::Frame frame = scarp::grid_frame(raw.rows);
-  const scarp::VertexLattice lattice;
-  scarp::MeltDown melting(std::move(run.domain.tin), {heights, lattice, frame, true}, threads);
+  const scarp::grid::VertexLattice lattice;
+  scarp::pieces::MeltDown melting(std::move(run.domain.tin), {heights, lattice, frame, true}, threads);
   melting.order();
   const scarp::Mesh mesh = melting.finish();
   std::printf("{\"samples\": %zu, \"order\": \"%s\", \"threads\": %d, \"vertices\": %zu, \"bytes\": %zu}\n",

@@ -32,10 +32,10 @@ bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
 
 /// Prints the smallest max error reached up to each share, since max error is not monotone in the vertices.
 void print_errors(const bench::RawRaster& raw, const std::vector<std::string>& shares) {
-  const scarp::Raster raster = bench::view_of(raw);
-  scarp::DomainMesh domain = bench::start_greedy(raster);
-  const scarp::HeightMetric metric(raster, 0);
-  scarp::Refinement refinement(metric, domain.tin);
+  const scarp::grid::Raster raster = bench::view_of(raw);
+  scarp::refine::DomainMesh domain = bench::start_greedy(raster);
+  const scarp::metric::HeightMetric metric(raster, 0);
+  scarp::refine::Refinement refinement(metric, domain.tin);
   double error = std::numeric_limits<double>::infinity();
   for (const std::string& share : shares) {
     const double most = std::stod(share) * static_cast<double>(raw.samples.size());
@@ -47,13 +47,13 @@ void print_errors(const bench::RawRaster& raw, const std::vector<std::string>& s
   }
 }
 
-bench::RawMesh mesh_of(const scarp::Triangulation& tin) {
+bench::RawMesh mesh_of(const scarp::tin::Triangulation& tin) {
   bench::RawMesh mesh;
-  for (scarp::Vertex v = 0; v < tin.vertex_count(); ++v) {
+  for (scarp::tin::Vertex v = 0; v < tin.vertex_count(); ++v) {
     mesh.points.push_back(static_cast<std::uint32_t>(tin.point(v).x));
     mesh.points.push_back(static_cast<std::uint32_t>(tin.point(v).y));
   }
-  for (scarp::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) mesh.triangles.push_back(tin.origin(h));
+  for (scarp::tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) mesh.triangles.push_back(tin.origin(h));
   return mesh;
 }
 
@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
   }
   if (arguments.count() < 4) bench::die("give an ERROR, or --find");
   const Options options{arguments.number(3), arguments.value("--order", "dominant") == "greedy",
-                        arguments.number("--threads", 1), arguments.number("--tile", 0), arguments.number("--repeat", 0)};
+                        arguments.number("--threads", 1), arguments.number("--tile", 0),
+                        arguments.number("--repeat", 0)};
   std::string more;
   if (options.calls > 0) {
     const bench::Times first = time_call(raster, options);
@@ -99,10 +100,10 @@ int main(int argc, char** argv) {
   const bench::EngineRun run = refine(raster, options);
   if (options.calls <= 1) times = watch.read();
   more += std::string(", \"order\": \"") + bench::name_of(run.order) + "\", \"kernel\": \"" +
-          scarp::scan_kernels().name + "\", \"threads\": " + std::to_string(options.threads) +
+          scarp::geom::scan_kernels().name + "\", \"threads\": " + std::to_string(options.threads) +
           ", \"triangles_scanned\": " + std::to_string(run.work.triangles_scanned) +
           ", \"insertions\": " + std::to_string(run.work.passes);
-  const scarp::Triangulation& tin = run.domain.tin;
+  const scarp::tin::Triangulation& tin = run.domain.tin;
   bench::print_result(scarp::version(), times, tin.vertex_count(), tin.triangle_count(), more);
   if (arguments.has("--mesh")) bench::write_mesh(arguments.value("--mesh", ""), mesh_of(tin));
 }

@@ -24,7 +24,7 @@ struct Patch {
   std::vector<std::array<scarp::Point, 3>> triangles;
   scarp::Point low{INT32_MAX, INT32_MAX}, high{0, 0};
 
-  scarp::TileWindow window() const { return {low.x, low.y, high.x - low.x + 1, high.y - low.y + 1}; }
+  scarp::refine::TileWindow window() const { return {low.x, low.y, high.x - low.x + 1, high.y - low.y + 1}; }
 };
 
 void add(Patch& patch, const std::array<scarp::Point, 3>& corners) {
@@ -35,9 +35,9 @@ void add(Patch& patch, const std::array<scarp::Point, 3>& corners) {
   }
 }
 
-std::vector<Patch> sort_by_tiles(const scarp::Triangulation& tin, int side) {
+std::vector<Patch> sort_by_tiles(const scarp::tin::Triangulation& tin, int side) {
   std::map<std::pair<int, int>, Patch> patches;
-  for (scarp::Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (scarp::tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     const std::array corners{tin.point(tin.origin(3 * t)), tin.point(tin.origin(3 * t + 1)),
                              tin.point(tin.origin(3 * t + 2))};
@@ -47,8 +47,8 @@ std::vector<Patch> sort_by_tiles(const scarp::Triangulation& tin, int side) {
   }
   std::vector<Patch> sorted;
   for (auto& [key, patch] : patches) {
-    const scarp::TileWindow window = patch.window();
-    if (std::max(window.cols, window.rows) > scarp::kMaxTileSide)
+    const scarp::refine::TileWindow window = patch.window();
+    if (std::max(window.cols, window.rows) > scarp::geom::kMaxTileSide)
       bench::die("the triangles of a tile reach farther than a buffer holds");
     sorted.push_back(std::move(patch));
   }
@@ -83,32 +83,33 @@ class Verifier {
   void localize(const Patch& patch) {
     corners_.clear();
     for (const auto& triangle : patch.triangles) {
-      std::array<scarp::TilePoint, 3> corners{};
+      std::array<scarp::geom::TilePoint, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = scarp::tile_point(triangle[k].x - patch.low.x, triangle[k].y - patch.low.y);
+        corners[k] = scarp::geom::tile_point(triangle[k].x - patch.low.x, triangle[k].y - patch.low.y);
       corners_.push_back(corners);
     }
     hits_.resize(corners_.size());
   }
 
   void scan(Pass& pass) {
-    const scarp::TileView& view = tile_.view();
-    pass.compared += scarp::scan_kernels().scan(view, threshold_, corners_, {}, hits_.data());
-    const scarp::HeightMetric metric({view.samples, static_cast<std::int32_t>(view.stride), view.rows}, threshold_);
+    const scarp::geom::TileView& view = tile_.view();
+    pass.compared += scarp::geom::scan_kernels().scan(view, threshold_, corners_, {}, hits_.data());
+    const scarp::metric::HeightMetric metric({view.samples, static_cast<std::int32_t>(view.stride), view.rows},
+                                             threshold_);
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       if (hits_[i].error == 0) continue;
       ++pass.decided_exactly;
-      const std::array corners{scarp::point_of(corners_[i][0]), scarp::point_of(corners_[i][1]),
-                               scarp::point_of(corners_[i][2])};
+      const std::array corners{scarp::geom::point_of(corners_[i][0]), scarp::geom::point_of(corners_[i][1]),
+                               scarp::geom::point_of(corners_[i][2])};
       pass.broken += metric.find_candidate(corners, metric.fit(corners, {})).has_value() ? 1 : 0;
     }
   }
 
   scarp::HeightField field_;
   double threshold_;
-  scarp::Tile tile_;
-  std::vector<std::array<scarp::TilePoint, 3>> corners_;
-  std::vector<scarp::ScanHit> hits_;
+  scarp::refine::Tile tile_;
+  std::vector<std::array<scarp::geom::TilePoint, 3>> corners_;
+  std::vector<scarp::geom::ScanHit> hits_;
 };
 
 }  // namespace
@@ -117,14 +118,14 @@ int main(int argc, char** argv) {
   const bench::Arguments arguments(argc, argv, "speed_verify RASTER COLS ROWS ERROR [SIDE]");
   const bench::RawRaster raster = bench::read_raw(arguments);
   const double error = arguments.number(3);
-  const scarp::DomainMesh domain = bench::refine_dominantly(raster, error, 1).domain;
+  const scarp::refine::DomainMesh domain = bench::refine_dominantly(raster, error, 1).domain;
   const auto patches = sort_by_tiles(domain.tin, arguments.count() > 4 ? static_cast<int>(arguments.number(4)) : 256);
   Verifier verifier(raster, error);
   verifier.verify(patches);
   const Verifier::Pass pass = verifier.verify(patches);
   if (pass.broken != 0) bench::die("the mesh breaks its bound in " + std::to_string(pass.broken) + " triangles");
   bench::print_result(scarp::version(), pass.scan, domain.tin.vertex_count(), domain.tin.triangle_count(),
-                      ", \"kernel\": \"" + std::string(scarp::scan_kernels().name) +
+                      ", \"kernel\": \"" + std::string(scarp::geom::scan_kernels().name) +
                           "\", \"load_seconds\": " + std::to_string(pass.load.cpu()) +
                           ", \"decided_exactly\": " + std::to_string(pass.decided_exactly));
 }

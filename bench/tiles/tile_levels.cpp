@@ -77,13 +77,14 @@ int main(int argc, char** argv) {
     for (const scarp::TileId id : ids) {
       std::array<double, 3> least{};
       for (int round = 0; round < rounds; ++round) {
-        const std::int32_t steps = scarp::steps_of(plan, z);
+        const std::int32_t steps = scarp::tiles::steps_of(plan, z);
         const bench::Stopwatch watch;
-        const auto nodes =
-            bench::check(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
+        const auto nodes = bench::check(
+            scarp::tiles::TileNodes::read(plan, id, steps, scarp::tiles::normal_reach(steps), raster->nodes()));
         const double is_read = watch.cpu();
         const auto tile =
-            bench::check(scarp::make_tile_of(plan, id, nodes, scarp::proof_at_nodes(plan, nodes, raster->nodes()), {}))
+            bench::check(scarp::tiles::make_tile_of(plan, id, nodes,
+                                                    scarp::tiles::proof_at_nodes(plan, nodes, raster->nodes()), {}))
                 .tile;
         const double is_made = watch.cpu();
         const auto packed = bench::check(encode(tile));

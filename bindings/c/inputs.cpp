@@ -13,8 +13,8 @@
 namespace scarp::door {
 namespace {
 
-LentRaster raster_of(const scarp_field& field) {
-  LentRaster raster;
+io::LentRaster raster_of(const scarp_field& field) {
+  io::LentRaster raster;
   raster.samples = field.samples;
   raster.cols = field.cols;
   raster.rows = field.rows;
@@ -69,8 +69,8 @@ std::string find_fault(const float* tolerance, std::uint64_t count) {
 }
 
 /// A raster of other values on the grid of `raster`.
-LentRaster beside(const LentRaster& raster, const float* values) {
-  LentRaster other = raster;
+io::LentRaster beside(const io::LentRaster& raster, const float* values) {
+  io::LentRaster other = raster;
   other.samples = values;
   other.nodata.reset();
   other.sample_rounding = 0;

@@ -22,9 +22,9 @@ class LentInputs {
  private:
   std::string name_;
   std::string unfit_;  ///< reason why the struct cannot be read, or empty
-  LentRaster raster_, mask_, tolerance_;
+  io::LentRaster raster_, mask_, tolerance_;
   PointSet points_;
-  std::optional<Lent> lent_, lent_mask_, lent_tolerance_;
+  std::optional<io::Lent> lent_, lent_mask_, lent_tolerance_;
 };
 
 }  // namespace scarp::door

@@ -31,7 +31,7 @@ scarp_status finish(const Measurement& measured, std::uint64_t over, double seco
 /// `are_points`: nothing for a file, which contains points or a raster.
 scarp_status judge(const std::string& input, std::optional<bool> are_points, const Mesh& mesh,
                    const scarp_options& asked, scarp_report* out) {
-  const Lent lent(kMeshName, mesh);
+  const io::Lent lent(kMeshName, mesh);
   CLI::App program;
   cli::GivenOptions given(cli::kMeasure);
   given.add_to(program);

@@ -21,7 +21,7 @@
 
 struct scarp_tiles {
   scarp::cli::OpenedJob opened;
-  std::unique_ptr<scarp::LiveTileSet> set;
+  std::unique_ptr<scarp::jobs::LiveTileSet> set;
   std::vector<std::vector<std::uint32_t>> lists;  ///< by level: column and row of each tile
   std::string layer = {};
 };
@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::uint64_t kCacheBytes = std::uint64_t{64} << 20;
 
-std::vector<std::vector<std::uint32_t>> list_tiles(const LiveTileSet& set) {
+std::vector<std::vector<std::uint32_t>> list_tiles(const jobs::LiveTileSet& set) {
   std::vector<std::vector<std::uint32_t>> lists;
   for (const auto& level : set.tiles()) {
     lists.emplace_back();
@@ -69,7 +69,7 @@ scarp_status open_tiles(const std::string& input, const scarp_options& asked, sc
     return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
   auto opened = cli::open_tiles(words.given, words.run.progress);
   if (!opened) return report(opened.error());
-  auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, words.run);
+  auto set = jobs::LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, words.run);
   if (!set) return report(set.error());
   auto tiles = std::make_unique<scarp_tiles>();
   tiles->opened = std::move(*opened);

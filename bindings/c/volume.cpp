@@ -63,7 +63,7 @@ scarp_status scarp_measure_volume(const scarp_mesh* from, const scarp_mesh* to, 
                                   scarp_volumes* out) {
   return guarded([&]() -> scarp_status {
     if (from == nullptr || to == nullptr || out == nullptr) return refuse_null_surface();
-    const scarp::Lent lent_from(kFromName, from->mesh), lent_to(kToName, to->mesh);
+    const scarp::io::Lent lent_from(kFromName, from->mesh), lent_to(kToName, to->mesh);
     return compare(kFromName, kToName, options, out);
   });
 }
@@ -72,7 +72,7 @@ scarp_status scarp_measure_volume_to_level(const scarp_mesh* from, double level,
                                            scarp_volumes* out) {
   return guarded([&]() -> scarp_status {
     if (from == nullptr || out == nullptr) return refuse_null_surface();
-    const scarp::Lent lent(kFromName, from->mesh);
+    const scarp::io::Lent lent(kFromName, from->mesh);
     return compare(kFromName, fmt::format("level={}", level), options, out);
   });
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Limit of reported missing tiles, for a set that announces the whole globe but contains few tiles.
@@ -18,7 +18,7 @@ TileId id_of(std::size_t z, std::uint64_t key) {
 
 }  // namespace
 
-void check_availability(const TileSetReader& set, const SetClaims& claims, const TileGrid& grid,
+void check_availability(const TileSetReader& set, const io::SetClaims& claims, const TileGrid& grid,
                         std::vector<TileFault>& faults) {
   const auto add = [&](std::string sentence) { faults.push_back({TileFaultKind::kAvailability, std::move(sentence)}); };
   const auto name = [&](TileId id) { return tile_name(set.format(), id); };
@@ -33,7 +33,7 @@ void check_availability(const TileSetReader& set, const SetClaims& claims, const
     const std::vector<std::uint64_t>& tiles = tiles_of(z);
     std::vector<bool> is_announced(tiles.size());
     if (z < claims.levels.size()) {
-      for (const ClaimedTiles& range : claims.levels[z]) {
+      for (const io::ClaimedTiles& range : claims.levels[z]) {
         for (std::uint32_t y = range.y; y <= range.end_y && missing < kMostMissing; ++y) {
           auto tile = std::lower_bound(tiles.begin(), tiles.end(), key_of(range.x, y));
           std::uint64_t next = range.x;
@@ -65,4 +65,4 @@ void check_availability(const TileSetReader& set, const SetClaims& claims, const
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 bool are_same(const EdgeVertex& a, const EdgeVertex& b) { return a.key == b.key && a.normal == b.normal; }
@@ -154,4 +154,4 @@ void BorderWatch::check_pole(const TileEdges& tile, TileSide side) {
                                            tile_name(format_, tile.id), gap)});
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -10,7 +10,7 @@
 #include "check/client_tile.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// A vertex on an edge. Two vertices are the same if their `key` and `normal` are equal.
 struct EdgeVertex {
@@ -62,4 +62,4 @@ class BorderWatch {
   std::map<TileSide, EdgeVertex> poles_;  ///< first vertex at each pole
 };
 
-}  // namespace scarp
+}  // namespace scarp::check

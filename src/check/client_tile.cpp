@@ -6,7 +6,7 @@
 #include "io/gzip.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Size limit of an unpacked tile, so that a few bytes cannot exhaust memory.
@@ -54,7 +54,7 @@ void place_at_poles(ClientTile& tile, const std::vector<bool>& is_pole) {
   }
 }
 
-Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const World& world, const TileFacts* facts) {
+Result<ClientTile> take_glb(io::TileGlb glb, const DegreeBox& box, const World& world, const io::TileFacts* facts) {
   ClientTile tile;
   tile.places = std::move(glb.positions);
   std::vector<bool> is_pole(tile.places.size());
@@ -79,7 +79,7 @@ Result<ClientTile> take_glb(TileGlb glb, const DegreeBox& box, const World& worl
   tile.skirt_triangles = std::move(glb.skirt_triangles);
   tile.edges = {std::move(glb.west), std::move(glb.south), std::move(glb.east), std::move(glb.north)};
   if (std::find(is_pole.begin(), is_pole.end(), true) != is_pole.end()) place_at_poles(tile, is_pole);
-  const TileFacts& said = facts != nullptr ? *facts : glb.facts;
+  const io::TileFacts& said = facts != nullptr ? *facts : glb.facts;
   tile.low = said.min_height;
   tile.high = said.max_height;
   tile.sphere_centre = {said.sphere[0], said.sphere[1], said.sphere[2]};
@@ -98,11 +98,11 @@ Geographic geographic_at(const DegreeBox& box, double u, double v, double height
 }
 
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
-                                      const TileGrid& grid, const World& world, const TileFacts* facts) {
+                                      const TileGrid& grid, const World& world, const io::TileFacts* facts) {
   const std::string name = tile_name(format, id);
   std::vector<std::uint8_t> unpacked;
-  if (is_gzip(bytes)) {
-    auto whole = decompress_gzip(bytes, kMostBytes);
+  if (io::is_gzip(bytes)) {
+    auto whole = io::decompress_gzip(bytes, kMostBytes);
     if (!whole) return fail(ErrorKind::kInput, name + " cannot be unpacked: " + whole.error().message);
     unpacked = std::move(*whole);
     bytes = unpacked;
@@ -110,7 +110,7 @@ Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::ui
   Result<ClientTile> tile;
   const DegreeBox box = grid.bounds_of(id);
   if (format == TileFormat::kGlb) {
-    SCARP_TRY(auto&& glb, decode_tile_glb(bytes, name));
+    SCARP_TRY(auto&& glb, io::decode_tile_glb(bytes, name));
     tile = take_glb(std::move(glb), box, world, facts);
   } else {
     SCARP_TRY(auto&& mesh, decode_quantized_mesh(bytes, name));
@@ -123,4 +123,4 @@ Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::ui
   return tile;
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -13,7 +13,7 @@
 #include "scarp/tile.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// The length of a tile's side: positions are 0 … 32767.
 inline constexpr double kWholeTile = 32767;
@@ -49,9 +49,9 @@ struct ClientTile {
 
 /// `facts`: the subtree's data about the tile; null: use the file's data. Fails with kInput.
 Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
-                                      const TileGrid& grid, const World& world, const TileFacts* facts);
+                                      const TileGrid& grid, const World& world, const io::TileFacts* facts);
 
 /// Geographic coordinates of a position in a tile.
 Geographic geographic_at(const DegreeBox& box, double u, double v, double height);
 
-}  // namespace scarp
+}  // namespace scarp::check

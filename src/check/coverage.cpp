@@ -10,7 +10,7 @@
 
 #include "check/tile_faults.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 constexpr unsigned side_bit(std::size_t side) { return 1u << side; }
@@ -224,4 +224,4 @@ void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -6,7 +6,7 @@
 
 #include "check/tile_faults.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Relative effect of rounding to doubles.
@@ -140,4 +140,4 @@ void check_water_mask(const ClientTile& tile, bool is_announced, std::vector<Til
                         : fmt::format("{} has a water mask of {} bytes instead of 1 or {}", name, size, kTexels)});
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -13,7 +13,7 @@
 #include "check/client_tile.h"
 #include "io/tiles/set_claims.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 constexpr double kWidest = 4;
@@ -151,7 +151,7 @@ Result<std::optional<std::vector<std::vector<std::uint8_t>>>> read_tiles(const T
 }  // namespace
 
 Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::uint64_t most_bytes) {
-  const SetClaims claims = read_set_claims(set);
+  const io::SetClaims claims = io::read_set_claims(set);
   const World world(claims.grid, claims.ellipsoid.value_or(Geodetic{}));
   std::size_t finest = set.tiles().size();
   while (finest > 0 && set.tiles()[finest - 1].empty()) --finest;
@@ -183,7 +183,7 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
 }
 
 std::vector<std::string> find_set_faults(const TileSetReader& set) {
-  const SetClaims claims = read_set_claims(set);
+  const io::SetClaims claims = io::read_set_claims(set);
   std::vector<TileFault> faults;
   check_availability(set, claims, claims.grid, faults);
   std::vector<std::string> sentences;
@@ -191,4 +191,4 @@ std::vector<std::string> find_set_faults(const TileSetReader& set) {
   return sentences;
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

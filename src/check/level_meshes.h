@@ -13,7 +13,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::check {
 
 struct LevelTile {
   /// On a flat map: x and y are metres east and north of the middle, where the scale is true; z is the tiles' height.
@@ -41,6 +41,6 @@ Result<std::vector<LevelMesh>> read_level_meshes(const TileSetReader& set, std::
 /// tileset.json. Empty for an intact set. Reads no tile. Cost: O(tiles).
 std::vector<std::string> find_set_faults(const TileSetReader& set);
 
-}  // namespace scarp
+}  // namespace scarp::check
 
 #pragma GCC visibility pop

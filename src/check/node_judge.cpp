@@ -7,7 +7,7 @@
 
 #include "check/tile_faults.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Limit of exhaustive searches per tile and block: a tile with more such nodes is faulty anyway.
@@ -233,4 +233,4 @@ NodeVerdict NodeJudge::judge_outside(const NodeRectangle& inside, const World& w
   return verdict;
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

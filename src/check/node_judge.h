@@ -7,7 +7,7 @@
 
 #include "check/client_tile.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// Heights of a rectangle of nodes. Columns count from the western end of the grid, rows from the northern.
 struct NodeBlock {
@@ -85,4 +85,4 @@ class NodeJudge {
   std::vector<double> longest_;  ///< longest distance from each triangle's first corner
 };
 
-}  // namespace scarp
+}  // namespace scarp::check

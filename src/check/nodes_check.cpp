@@ -15,7 +15,7 @@
 #include "check/node_judge.h"
 #include "check/sample_judge.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Node intervals along a side of a block, which then needs 67 MB.
@@ -28,8 +28,8 @@ std::uint64_t key_of_tile(TileId id) { return std::uint64_t{id.y} << 32 | id.x; 
 
 class NodesCheck {
  public:
-  NodesCheck(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options, const TileGrid& grid,
-             const World& world, TileCheck& check, std::vector<TileFault>& faults)
+  NodesCheck(const TileSetReader& set, const io::SetClaims& claims, const TileCheckOptions& options,
+             const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults)
       : set_(set),
         claims_(claims),
         options_(options),
@@ -277,7 +277,7 @@ class NodesCheck {
   }
 
   const TileSetReader& set_;
-  const SetClaims& claims_;
+  const io::SetClaims& claims_;
   const TileCheckOptions& options_;
   TileCheck& check_;
   std::vector<TileFault>& faults_;
@@ -294,9 +294,9 @@ class NodesCheck {
 
 }  // namespace
 
-Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
+Result<void> check_nodes(const TileSetReader& set, const io::SetClaims& claims, const TileCheckOptions& options,
                          const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults) {
   return NodesCheck(set, claims, options, grid, world, check, faults).run();
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

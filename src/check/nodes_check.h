@@ -8,11 +8,11 @@
 #include "io/tiles/set_claims.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// Compares each node under each tile of the set with the tile's triangles. Adds results to the check's levels, nodes
 /// and faults. Tiles that cannot be decoded are omitted. Fails as the source does, and with kCancelled.
-Result<void> check_nodes(const TileSetReader& set, const SetClaims& claims, const TileCheckOptions& options,
+Result<void> check_nodes(const TileSetReader& set, const io::SetClaims& claims, const TileCheckOptions& options,
                          const TileGrid& grid, const World& world, TileCheck& check, std::vector<TileFault>& faults);
 
-}  // namespace scarp
+}  // namespace scarp::check

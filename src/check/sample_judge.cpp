@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::check {
 
 std::size_t SampleJudge::bucket_of(double place) {
   const double bucket = std::floor(place / (kWholeTile + 1) * kBuckets);
@@ -39,4 +39,4 @@ double SampleJudge::error_at(double u, double v, double height) const {
   return error;
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -6,7 +6,7 @@
 
 #include "check/client_tile.h"
 
-namespace scarp {
+namespace scarp::check {
 
 class SampleJudge {
  public:
@@ -24,4 +24,4 @@ class SampleJudge {
   std::vector<std::vector<std::uint32_t>> buckets_;  ///< first indices of the triangles that may overlap each bucket
 };
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -8,7 +8,7 @@
 
 #include "check/tile_faults.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Two successive vertices of an edge, clockwise around the tile.
@@ -55,4 +55,4 @@ void check_skirt(const ClientTile& tile, const World& world, std::vector<TileFau
   if (of_edges < there.size()) add("hangs from elsewhere than the edges, or faces the tile");
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

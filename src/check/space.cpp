@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 constexpr double kRadiansOfDegree = 0.017453292519943295;
@@ -92,4 +92,4 @@ double distance_to_triangle(const Place& point, const Place& a, const Place& b, 
       {distance_to_segment(point, a, b), distance_to_segment(point, b, c), distance_to_segment(point, c, a)});
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -6,7 +6,7 @@
 #include "scarp/height_field.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// Earth-centred metres, or metres from the centre of a plane; also a vector.
 using Place = std::array<double, 3>;
@@ -68,4 +68,4 @@ class World {
 
 double distance_to_triangle(const Place& point, const Place& a, const Place& b, const Place& c);
 
-}  // namespace scarp
+}  // namespace scarp::check

@@ -7,7 +7,7 @@
 #include "check/client_tile.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// Adds one sentence per violated rule to `faults`.
 void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
@@ -25,4 +25,4 @@ void check_water_mask(const ClientTile& tile, bool is_announced, std::vector<Til
 /// The largest depth of the flat triangles below the curved surface between their corners, in metres.
 double measure_sag(const ClientTile& tile, const World& world);
 
-}  // namespace scarp
+}  // namespace scarp::check

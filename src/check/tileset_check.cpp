@@ -10,7 +10,7 @@
 
 #include "check/space.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
@@ -24,7 +24,7 @@ constexpr int kLooks = 5;
 
 class TilesetCheck {
  public:
-  TilesetCheck(const SetClaims& claims, const TileGrid& grid, double low, double high, const CheckedNodes& nodes,
+  TilesetCheck(const io::SetClaims& claims, const TileGrid& grid, double low, double high, const CheckedNodes& nodes,
                std::vector<TileFault>& faults)
       : claims_(claims), grid_(grid), low_(low), high_(high), nodes_(nodes), faults_(faults) {}
 
@@ -33,7 +33,7 @@ class TilesetCheck {
     std::optional<double> above = claims_.geometric_error;
     if (!above) add("it has no geometricError, by which clients decide to load it");
     std::uint32_t implicit = 0;
-    for (const ClaimedRoot& root : claims_.roots) {
+    for (const io::ClaimedRoot& root : claims_.roots) {
       if (!root.refine.empty()) refine = root.refine;
       if (refine != "REPLACE")
         add(fmt::format(
@@ -66,7 +66,7 @@ class TilesetCheck {
   void add(const std::string& what) { faults_.push_back({TileFaultKind::kTileset, "tileset.json: " + what}); }
 
   /// Checks the volumes that include heights.
-  void check_heights(const ClaimedRoot& root) {
+  void check_heights(const io::ClaimedRoot& root) {
     const std::vector<double>& of = root.numbers;
     if (root.volume.empty()) return add("a root has no boundingVolume that is a region or a box");
     const double low = root.volume == "region" ? of[4] : of[2] - std::abs(of[11]),
@@ -77,7 +77,7 @@ class TilesetCheck {
   }
 
   /// Clients halve the root's sides to locate tiles.
-  void check_sides(const ClaimedRoot& root, std::uint32_t x) {
+  void check_sides(const io::ClaimedRoot& root, std::uint32_t x) {
     const std::vector<double>& of = root.numbers;
     if (root.volume != (grid_.is_flat() ? "box" : "region"))
       return add(fmt::format("root {} has to have a {} for its boundingVolume", x, grid_.is_flat() ? "box" : "region"));
@@ -106,7 +106,7 @@ class TilesetCheck {
   }
 
   /// Each level has half the error of the level above.
-  void check_error(const ClaimedRoot& root, std::uint32_t x) {
+  void check_error(const io::ClaimedRoot& root, std::uint32_t x) {
     double error = root.geometric_error.value_or(0);
     for (std::size_t z = 0; z < claims_.bounds.size(); ++z, error /= 2) {
       if (!claims_.bounds[z] || !(*claims_.bounds[z] > error)) continue;
@@ -122,7 +122,7 @@ class TilesetCheck {
     return at;
   }
 
-  void check_transform(const ClaimedRoot& root) {
+  void check_transform(const io::ClaimedRoot& root) {
     if (!root.has_transform) {
       if (nodes_.place) add("it has no transform, and its source has a place on the globe");
       return;
@@ -174,7 +174,7 @@ class TilesetCheck {
                       worst[0], worst[1], told_along, told_up));
   }
 
-  const SetClaims& claims_;
+  const io::SetClaims& claims_;
   const TileGrid& grid_;
   double low_, high_;
   const CheckedNodes& nodes_;
@@ -183,11 +183,11 @@ class TilesetCheck {
 
 }  // namespace
 
-void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
+void check_tileset(const io::SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults) {
   // Without roots a fault was added before.
   if (claims.roots.empty()) return;
   TilesetCheck(claims, grid, low, high, nodes, faults).run(levels);
 }
 
-}  // namespace scarp
+}  // namespace scarp::check

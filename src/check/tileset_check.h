@@ -7,10 +7,10 @@
 #include "io/tiles/set_claims.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 
 /// `levels`: number of levels of the set; `low`, `high`: range of the heights of all its vertices.
-void check_tileset(const SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
+void check_tileset(const io::SetClaims& claims, const TileGrid& grid, std::size_t levels, double low, double high,
                    const CheckedNodes& nodes, std::vector<TileFault>& faults);
 
-}  // namespace scarp
+}  // namespace scarp::check

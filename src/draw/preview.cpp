@@ -37,7 +37,7 @@ Result<Relief> reduce(const HeightField& field, int width, int height) {
       relief.z[i] += static_cast<double>(row[c]);
     }
   };
-  const auto swept = sweep_rows(field, 0, [&](const RowRange& rows) -> Result<void> {
+  const auto swept = grid::sweep_rows(field, 0, [&](const grid::RowRange& rows) -> Result<void> {
     for (int r = rows.begin; r < rows.end; ++r) add_row(r, rows.row(r));
     return {};
   });
@@ -181,7 +181,7 @@ std::vector<draw::Name> draw_marks(const std::vector<Mark>& marks, const MapPlac
 }  // namespace
 
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options) {
-  SCARP_RETURN_IF_ERROR(check_size(field));
+  SCARP_RETURN_IF_ERROR(grid::check_size(field));
   if (field.frame.space) return fail(ErrorKind::kUsage, "a preview shows a map: the field's frame is in space");
   const int side = std::max(options.max_side, 1);
   draw::Ground ground = draw::ground_of(field.frame, field.cols, field.rows);

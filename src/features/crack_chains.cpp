@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace scarp {
+namespace scarp::features {
 namespace {
 
 constexpr std::uint32_t kNoCrack = 0xffffffff;
@@ -125,4 +125,4 @@ void CrackChains::link(std::uint32_t i) {
   flags_[cell[out]] |= kHasPrevious;
 }
 
-}  // namespace scarp
+}  // namespace scarp::features

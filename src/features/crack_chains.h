@@ -16,7 +16,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::features {
 
 struct Crack {
   Point high, low;                ///< samples
@@ -81,4 +81,4 @@ class CrackChains {
   std::vector<std::uint32_t> next_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::features

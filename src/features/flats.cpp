@@ -21,7 +21,7 @@ namespace {
 
 /// An edge-connected area of samples of equal height, as seen so far.
 struct Area {
-  std::vector<SampleRun> runs;  // unsorted
+  std::vector<grid::SampleRun> runs;  // unsorted
   std::uint64_t samples = 0;
   Point first;             // in raster order
   float height = 0;        // height of the first
@@ -71,8 +71,8 @@ class AreaSweep {
   /// Bytes in use, including areas that were passed on and their sorting.
   std::uint64_t bytes() const {
     constexpr std::uint64_t kGrowth = 2;
-    return kGrowth * (sizeof(SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +
-           (sizeof(Area) + kSmallRuns * sizeof(SampleRun)) * areas_.size();
+    return kGrowth * (sizeof(grid::SampleRun) * runs_ + sizeof(Piece) * (pieces_.size() + above_.size())) +
+           (sizeof(Area) + kSmallRuns * sizeof(grid::SampleRun)) * areas_.size();
   }
 
  private:
@@ -105,8 +105,8 @@ class AreaSweep {
   }
 
   void release(std::uint32_t number) {
-    std::vector<SampleRun>& runs = areas_[number].runs;
-    if (runs.capacity() > kSmallRuns) std::vector<SampleRun>().swap(runs);
+    std::vector<grid::SampleRun>& runs = areas_[number].runs;
+    if (runs.capacity() > kSmallRuns) std::vector<grid::SampleRun>().swap(runs);
     runs.clear();
     free_.push_back(number);
   }
@@ -166,7 +166,7 @@ class Flats {
   Result<std::vector<Lake>> find() {
     AreaSweep sweep(options_.min_samples);
     const auto add = [this](Area& area) { add_flat(area); };
-    RowReader reader(field_);
+    grid::RowReader reader(field_);
     for (std::int32_t y = 0; y < field_.rows; ++y) {
       SCARP_TRY(const auto& row, reader.read(y));
       sweep.add_row(row, field_.cols, add);
@@ -199,7 +199,7 @@ class Flats {
     Lake lake;
     lake.level = area.height;
     lake.name = fmt::format("flat at column {}, row {}", area.first.x, area.first.y);
-    for (const std::vector<Point>& polygon : trace_outline(area.runs)) {
+    for (const std::vector<Point>& polygon : grid::trace_outline(area.runs)) {
       Line ring;
       ring.role = lake.shore.empty() ? LineRole::kOuter : LineRole::kHole;
       ring.name = lake.name;
@@ -209,7 +209,7 @@ class Flats {
       lake.shore.push_back(std::move(ring));
     }
     if (lake.shore.empty()) return;
-    shore_bytes_ += line_bytes(field_, lake.shore, options_.affine);
+    shore_bytes_ += lines::line_bytes(field_, lake.shore, options_.affine);
     found_.emplace_back(area.first, std::move(lake));
   }
 

@@ -7,7 +7,7 @@
 
 #include "grid/bands.h"
 
-namespace scarp {
+namespace scarp::features {
 
 namespace {
 
@@ -23,8 +23,8 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
   const auto cols = static_cast<std::size_t>(field.cols);
   std::vector<float> turned;
   std::vector<std::uint8_t> is_near(cols);
-  const auto visit = [&](const RowRange& strip) -> Result<void> {
-    Raster raster = strip.samples;
+  const auto visit = [&](const grid::RowRange& strip) -> Result<void> {
+    grid::Raster raster = strip.samples;
     if (question.is_upside_down) {
       turned.assign(raster.samples, raster.row(raster.rows));
       for (float& height : turned) height = -height;
@@ -64,13 +64,13 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
     }
     return question.check(found.size(), static_cast<double>(strip.end) / field.rows);
   };
-  SCARP_RETURN_IF_ERROR(sweep_rows(field, kReach, visit));
+  SCARP_RETURN_IF_ERROR(grid::sweep_rows(field, kReach, visit));
   return found;
 }
 
 std::uint64_t HollowSamples::bytes(const HeightField& field) {
   // The strip, its negated copy, and the results for it.
-  return 2 * sweep_bytes(field, kReach) + sweep_bytes(field, kReach) / 4 +
+  return 2 * grid::sweep_bytes(field, kReach) + grid::sweep_bytes(field, kReach) / 4 +
          sizeof(std::uint32_t) * static_cast<std::uint64_t>(field.rows);
 }
 
@@ -88,4 +88,4 @@ std::uint32_t HollowSamples::first_from(Point p) const {
   return static_cast<std::uint32_t>(std::lower_bound(at(begin), at(end), p.x) - cols_.begin());
 }
 
-}  // namespace scarp
+}  // namespace scarp::features

@@ -10,7 +10,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::features {
 
 class HollowSamples {
  public:
@@ -56,4 +56,4 @@ class HollowSamples {
   std::vector<std::uint32_t> begins_;  // begin of each row's samples, and the end of the last row's
 };
 
-}  // namespace scarp
+}  // namespace scarp::features

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::features {
 namespace {
 
 struct Side {
@@ -17,7 +17,7 @@ struct Side {
 
 class Profiles {
  public:
-  Profiles(const Raster& raster, double height) : raster_(raster), height_(height) {}
+  Profiles(const grid::Raster& raster, double height) : raster_(raster), height_(height) {}
 
   Hollow at(Point p) const {
     if (!raster_.is_valid(p)) return Hollow::kNone;
@@ -88,17 +88,17 @@ class Profiles {
     return side;
   }
 
-  const Raster& raster_;
+  const grid::Raster& raster_;
   double height_;
 };
 
 }  // namespace
 
-std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads) {
+std::vector<Hollow> find_hollows(const grid::Raster& raster, double height, int threads) {
   return find_hollows(raster, height, threads, 0, raster.rows);
 }
 
-std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
+std::vector<Hollow> find_hollows(const grid::Raster& raster, double height, int threads, std::int32_t begin,
                                  std::int32_t end) {
   const auto cols = static_cast<std::size_t>(raster.cols), rows = static_cast<std::size_t>(end - begin);
   std::vector<Hollow> hollows(cols * rows, Hollow::kNone);
@@ -110,4 +110,4 @@ std::vector<Hollow> find_hollows(const Raster& raster, double height, int thread
   return hollows;
 }
 
-}  // namespace scarp
+}  // namespace scarp::features

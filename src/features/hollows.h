@@ -6,7 +6,7 @@
 
 #include "grid/raster.h"
 
-namespace scarp {
+namespace scarp::features {
 
 /// Classes of a sample's depth below the land on both sides.
 enum class Hollow : std::uint8_t {
@@ -22,9 +22,9 @@ inline constexpr std::int32_t kHollowReach = 16;  ///< samples in one side of a 
 /// samples and before it falls below the sample. If the nearest sample of a side is nodata or beyond the raster, the
 /// other side counts for both, provided another profile has two sides. In a level stretch of a profile, only the one or
 /// two middle samples count as low.
-std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
+std::vector<Hollow> find_hollows(const grid::Raster& raster, double height, int threads);
 /// The same, only for the rows [begin, end).
-std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
+std::vector<Hollow> find_hollows(const grid::Raster& raster, double height, int threads, std::int32_t begin,
                                  std::int32_t end);
 
-}  // namespace scarp
+}  // namespace scarp::features

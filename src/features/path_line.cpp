@@ -9,7 +9,7 @@
 
 #include "lines/breaklines.h"
 
-namespace scarp {
+namespace scarp::features {
 namespace {
 
 constexpr double kCorridor = 1;           // in samples
@@ -17,7 +17,7 @@ constexpr std::size_t kLongestLink = 64;  // in samples of the path
 
 class Links {
  public:
-  Links(const LineSamples& samples, const std::vector<Point>& path, double tolerance)
+  Links(const lines::LineSamples& samples, const std::vector<Point>& path, double tolerance)
       : samples_(samples), path_(path), tolerance_(tolerance) {}
 
   /// Sum of squared distances of the samples between two vertices; nothing if the chord violates a limit.
@@ -37,14 +37,14 @@ class Links {
     // the same positions as in the insertion of lines
     const double looks = std::ceil(2 * std::sqrt(length2));
     for (double i = 1; i < looks; ++i) {
-      const double height = surface_at(samples_, {a.x + i / looks * dx, a.y + i / looks * dy});
+      const double height = lines::surface_at(samples_, {a.x + i / looks * dx, a.y + i / looks * dy});
       if (!(std::abs(from + i / looks * rise - height) <= tolerance_)) return std::nullopt;
     }
     return sum;
   }
 
  private:
-  const LineSamples& samples_;
+  const lines::LineSamples& samples_;
   const std::vector<Point>& path_;
   double tolerance_;
 };
@@ -57,7 +57,7 @@ struct State {
 
 }  // namespace
 
-std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath& path, double tolerance) {
+std::vector<Point> fewest_vertices(const lines::LineSamples& samples, const ValleyPath& path, double tolerance) {
   const Links links(samples, path.samples, tolerance);
   std::vector<State> states(path.samples.size());
   states[0].links = 0;
@@ -82,4 +82,4 @@ std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath&
   return vertices;
 }
 
-}  // namespace scarp
+}  // namespace scarp::features

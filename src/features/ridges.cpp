@@ -49,20 +49,20 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
 }
 
 /// Segments near all samples within two samples of paths.
-std::vector<Segment> courses_of(const std::vector<ValleyPath>& paths) {
-  std::vector<Segment> courses;
-  for (const ValleyPath& path : paths) {
+std::vector<geom::Segment> courses_of(const std::vector<features::ValleyPath>& paths) {
+  std::vector<geom::Segment> courses;
+  for (const features::ValleyPath& path : paths) {
     for (const Point p : path.samples) {
       for (const std::int32_t y : {p.y - 1, p.y})
-        courses.push_back(
-            {{(p.x - 1) * kLatticeSteps, y * kLatticeSteps}, {(p.x + 1) * kLatticeSteps, y * kLatticeSteps}});
+        courses.push_back({{(p.x - 1) * grid::kLatticeSteps, y * grid::kLatticeSteps},
+                           {(p.x + 1) * grid::kLatticeSteps, y * grid::kLatticeSteps}});
     }
   }
   return courses;
 }
 
-std::vector<SampleRun> runs_of(const HeightField& field, const RidgeOptions& options) {
-  LineRuns runs(options.affine, field.cols, field.rows);
+std::vector<grid::SampleRun> runs_of(const HeightField& field, const RidgeOptions& options) {
+  grid::LineRuns runs(options.affine, field.cols, field.rows);
   for (const Line& line : options.avoid) runs.add_course(line);
   return runs.runs();
 }
@@ -94,47 +94,49 @@ class Detection {
 
   Result<std::vector<Line>> find_in_memory(bool is_upside_down, const char* name) {
     SCARP_RETURN_IF_ERROR(take_step());
-    SCARP_TRY(const auto& samples, Samples::of(field_));
-    Raster raster = samples.raster();
+    SCARP_TRY(const auto& samples, grid::Samples::of(field_));
+    grid::Raster raster = samples.raster();
     std::vector<float> turned;
     if (is_upside_down) {
       turned.assign(raster.samples, raster.row(raster.rows));
       for (float& height : turned) height = -height;
       raster.samples = turned.data();
     }
-    const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.run.threads);
+    const std::vector<features::Hollow> hollows = features::find_hollows(raster, options_.height, options_.run.threads);
     SCARP_RETURN_IF_ERROR(take_step());
-    const std::vector<ValleyPath> paths = follow_valleys(raster, hollows, [&](Point p) { return marks_.has(p); });
+    const std::vector<features::ValleyPath> paths =
+        features::follow_valleys(raster, hollows, [&](Point p) { return marks_.has(p); });
     SCARP_RETURN_IF_ERROR(take_step());
-    return draw(paths, LineSamples(raster), name);
+    return draw(paths, lines::LineSamples(raster), name);
   }
 
   Result<std::vector<Line>> find_in_source(bool is_upside_down, const char* name) {
     SCARP_RETURN_IF_ERROR(take_step());
-    HollowSamples::Question question;
+    features::HollowSamples::Question question;
     question.height = options_.height;
     question.is_upside_down = is_upside_down;
     question.is_left_out = [&](Point p) { return marks_.has(p); };
     question.threads = options_.run.threads;
-    const std::uint64_t rows = HollowSamples::bytes(field_);
+    const std::uint64_t rows = features::HollowSamples::bytes(field_);
     question.check = [&, rows](std::uint64_t count, double share) {
       return memory_.check_part(lines_ + rows + kBytesPerSample * count, share, "ridges and valleys",
                                 "a larger height of ridges");
     };
-    SCARP_TRY(auto&& hollows, HollowSamples::find(field_, question));
+    SCARP_TRY(auto&& hollows, features::HollowSamples::find(field_, question));
     SCARP_RETURN_IF_ERROR(take_step());
-    const std::vector<ValleyPath> paths = follow_valleys(hollows);
+    const std::vector<features::ValleyPath> paths = features::follow_valleys(hollows);
     hollows = {};
     SCARP_RETURN_IF_ERROR(take_step());
-    SCARP_TRY(const auto& samples, LineSamples::read(field_, courses_of(paths)));
+    SCARP_TRY(const auto& samples, lines::LineSamples::read(field_, courses_of(paths)));
     // Chords are the same on the raster and its negation.
     return draw(paths, samples, name);
   }
 
-  std::vector<Line> draw(const std::vector<ValleyPath>& paths, const LineSamples& samples, const char* name) {
+  std::vector<Line> draw(const std::vector<features::ValleyPath>& paths, const lines::LineSamples& samples,
+                         const char* name) {
     std::vector<Line> lines(paths.size());
     parallel_for(paths.size(), options_.run.threads, [&](std::size_t k) {
-      lines[k] = to_map(fewest_vertices(samples, paths[k], kRidgeShare * options_.max_error), options_,
+      lines[k] = to_map(features::fewest_vertices(samples, paths[k], kRidgeShare * options_.max_error), options_,
                         fmt::format("{} {}", name, k + 1));
     });
     for (const Line& line : lines) lines_ += 2 * sizeof(Line) + sizeof(line.points[0]) * line.points.size();
@@ -152,7 +154,7 @@ class Detection {
   const HeightField& field_;
   const RidgeOptions& options_;
   Reporter reporter_;
-  SampleSet marks_;
+  grid::SampleSet marks_;
   MemoryBudget memory_;
   std::uint64_t lines_ = 0;  // bytes of lines found
   int steps_ = 0;
@@ -162,9 +164,9 @@ class Detection {
 
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) try {
   SCARP_RETURN_IF_ERROR(check_ridges(options));
-  SCARP_RETURN_IF_ERROR(check_size(field));
+  SCARP_RETURN_IF_ERROR(grid::check_size(field));
   // The finer lattice of lines must fit.
-  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / grid::kLatticeSteps) return Ridges{};
   return Detection(field, options).run();
 } catch (...) {
   return caught(ErrorKind::kInput, "look for ridges");

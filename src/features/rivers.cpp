@@ -31,10 +31,10 @@ bool is_closed(const Line& line) {
 /// The raster's surface, with lakes enlarged by a sample.
 class Ground {
  public:
-  Ground(LineSamples samples, std::span<const Lake> lakes, const std::array<double, 6>& affine)
+  Ground(lines::LineSamples samples, std::span<const Lake> lakes, const std::array<double, 6>& affine)
       : samples_(std::move(samples)), to_samples_(affine) {
     if (lakes.empty()) return;
-    LineRuns runs(affine, samples_.cols(), samples_.rows());
+    grid::LineRuns runs(affine, samples_.cols(), samples_.rows());
     for (const Lake& lake : lakes) {
       runs.add_polygons(lake.shore);
       for (const Line& ring : lake.shore) runs.add_course(ring, 1.0 / 128);
@@ -42,7 +42,7 @@ class Ground {
     lakes_.emplace(runs.runs(), samples_.rows());
   }
 
-  SamplePosition position_of(const std::array<double, 3>& point) const {
+  grid::SamplePosition position_of(const std::array<double, 3>& point) const {
     return to_samples_.position(point[0], point[1]);
   }
 
@@ -55,7 +55,7 @@ class Ground {
     if (!(col >= 0 && row >= 0 && col <= samples_.cols() - 1 && row <= samples_.rows() - 1)) return {};
     const double water = lakes_ ? level_around(col, row) : kNoHeight;
     if (!std::isnan(water)) return {water, true};
-    return {static_cast<float>(surface_at(samples_, {col, row})), false};
+    return {static_cast<float>(lines::surface_at(samples_, {col, row})), false};
   }
 
  private:
@@ -71,9 +71,9 @@ class Ground {
     return level;
   }
 
-  LineSamples samples_;
-  MapToSamples to_samples_;
-  std::optional<SampleSet> lakes_;
+  lines::LineSamples samples_;
+  grid::MapToSamples to_samples_;
+  std::optional<grid::SampleSet> lakes_;
 };
 
 /// A line with two positions per raster step.
@@ -146,7 +146,7 @@ class Course {
       if (k + 1 == kept.size()) break;
       const auto from = heights_.begin() + static_cast<std::ptrdiff_t>(kept[k]),
                  to = heights_.begin() + static_cast<std::ptrdiff_t>(kept[k + 1]) + 1;
-      for (const std::size_t bend : find_bends({from, to}, tolerance)) add(kept[k] + bend, river);
+      for (const std::size_t bend : lines::find_bends({from, to}, tolerance)) add(kept[k] + bend, river);
     }
     river.mouth = std::numeric_limits<double>::infinity();
     river.source = -river.mouth;
@@ -186,15 +186,15 @@ class Course {
 };
 
 /// Samples near the lines: read from the field's source, or from memory through `held`.
-Result<LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
-                                  const std::array<double, 6>& affine, std::optional<Samples>& held) {
+Result<lines::LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
+                                         const std::array<double, 6>& affine, std::optional<grid::Samples>& held) {
   if (field.samples != nullptr) {
-    SCARP_TRY(held, Samples::of(field));
-    return LineSamples(held->raster());
+    SCARP_TRY(held, grid::Samples::of(field));
+    return lines::LineSamples(held->raster());
   }
-  SCARP_RETURN_IF_ERROR(check_size(field));
-  SCARP_TRY(const auto& courses, find_courses(lines, affine, field.cols, field.rows));
-  return LineSamples::read(field, courses);
+  SCARP_RETURN_IF_ERROR(grid::check_size(field));
+  SCARP_TRY(const auto& courses, lines::find_courses(lines, affine, field.cols, field.rows));
+  return lines::LineSamples::read(field, courses);
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<cons
   if (!(options.tolerance >= 0))
     return fail(ErrorKind::kUsage,
                 fmt::format("the tolerance of rivers must be at least 0, not {}", options.tolerance));
-  std::optional<Samples> held;
+  std::optional<grid::Samples> held;
   SCARP_TRY(auto&& samples, samples_along(field, lines, options.affine, held));
   const Ground ground(std::move(samples), lakes, options.affine);
   std::vector<Course> courses;

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-namespace scarp {
+namespace scarp::features {
 namespace {
 
 constexpr std::uint32_t kNoNode = 0xffffffff;
@@ -16,7 +16,8 @@ class DenseNear {
  public:
   using Id = std::size_t;  // in raster order
 
-  DenseNear(const Raster& raster, const std::vector<Hollow>& hollows, const std::function<bool(Point)>& is_left_out)
+  DenseNear(const grid::Raster& raster, const std::vector<Hollow>& hollows,
+            const std::function<bool(Point)>& is_left_out)
       : raster_(raster), hollows_(hollows), states_(hollows.size(), State::kBeyond) {
     for (std::size_t i = 0; i < hollows.size(); ++i) {
       if (hollows[i] == Hollow::kNone) continue;
@@ -61,7 +62,7 @@ class DenseNear {
   }
   bool is_inside(Point p) const { return p.x >= 0 && p.y >= 0 && p.x < raster_.cols && p.y < raster_.rows; }
 
-  const Raster& raster_;
+  const grid::Raster& raster_;
   const std::vector<Hollow>& hollows_;
   std::vector<State> states_;
   std::vector<Id> near_;
@@ -224,11 +225,11 @@ class Forest {
 
 }  // namespace
 
-std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,
+std::vector<ValleyPath> follow_valleys(const grid::Raster& raster, const std::vector<Hollow>& hollows,
                                        const std::function<bool(Point)>& is_left_out) {
   return Forest(DenseNear(raster, hollows, is_left_out)).paths();
 }
 
 std::vector<ValleyPath> follow_valleys(const HollowSamples& samples) { return Forest(SparseNear(samples)).paths(); }
 
-}  // namespace scarp
+}  // namespace scarp::features

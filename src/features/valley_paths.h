@@ -9,7 +9,7 @@
 #include "features/hollows.h"
 #include "grid/raster.h"
 
-namespace scarp {
+namespace scarp::features {
 
 inline constexpr std::size_t kShortestValley = 8;  ///< low samples
 
@@ -24,10 +24,10 @@ struct ValleyPath {
 /// least kShortestValley low samples, half of them clearly low.
 ///
 /// `is_left_out`: true for samples that no path may use. Ties in height are broken by raster order.
-std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,
+std::vector<ValleyPath> follow_valleys(const grid::Raster& raster, const std::vector<Hollow>& hollows,
                                        const std::function<bool(Point)>& is_left_out);
 
 /// The same for known low samples and their neighbours. Memory: 26 bytes per sample.
 std::vector<ValleyPath> follow_valleys(const HollowSamples& samples);
 
-}  // namespace scarp
+}  // namespace scarp::features

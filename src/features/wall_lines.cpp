@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace scarp {
+namespace scarp::features {
 namespace {
 
 /// In kLatticeSteps: half the gap between top and foot on a crack; the spacing of pairs on cracks, and in cells. On the
@@ -28,7 +28,7 @@ WallVector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::i
 /// True if b points to the left of a, rows downwards.
 bool is_left(WallVector a, WallVector b) { return a.x * b.y - a.y * b.x < 0; }
 
-Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
+Point scaled(Point p) { return {p.x * grid::kLatticeSteps, p.y * grid::kLatticeSteps}; }
 
 /// Finds the fewest vertices by dynamic programming over pairs of candidate lattice points.
 class WallSearch {
@@ -99,9 +99,9 @@ class WallSearch {
     const std::int32_t dx = crack.low.x - crack.high.x, dy = crack.low.y - crack.high.y;
     const auto at = [&](std::int32_t t) { return Point{high.x + dx * t, high.y + dy * t}; };
     const std::uint32_t begin = begin_station();
-    for (std::int32_t t = kPairStep; t < kLatticeSteps; t += kPairStep)
+    for (std::int32_t t = kPairStep; t < grid::kLatticeSteps; t += kPairStep)
       pairs_.push_back({at(t - kHalfGap), at(t + kHalfGap)});
-    end_station({cracks_.size(), false, begin, 0, at(kLatticeSteps / 2), double{crack.top}, double{crack.foot}});
+    end_station({cracks_.size(), false, begin, 0, at(grid::kLatticeSteps / 2), double{crack.top}, double{crack.foot}});
     cracks_.push_back(crack);
   }
 
@@ -118,12 +118,13 @@ class WallSearch {
       return Point{from.x + dx * right, from.y + dy * down};
     };
     const std::uint32_t begin = begin_station();
-    for (std::int32_t down = kCellStep; down < kLatticeSteps; down += kCellStep) {
-      for (std::int32_t right = kCellStep; right < kLatticeSteps; right += kCellStep)
+    for (std::int32_t down = kCellStep; down < grid::kLatticeSteps; down += kCellStep) {
+      for (std::int32_t right = kCellStep; right < grid::kLatticeSteps; right += kCellStep)
         pairs_.push_back({at(right - gap, down - gap), at(right + gap, down + gap)});
     }
-    end_station({cracks_.empty() ? 0 : cracks_.size() - 1, true, begin, 0, at(kLatticeSteps / 2, kLatticeSteps / 2),
-                 (double{before.top} + double{after.top}) / 2, (double{before.foot} + double{after.foot}) / 2});
+    end_station({cracks_.empty() ? 0 : cracks_.size() - 1, true, begin, 0,
+                 at(grid::kLatticeSteps / 2, grid::kLatticeSteps / 2), (double{before.top} + double{after.top}) / 2,
+                 (double{before.foot} + double{after.foot}) / 2});
   }
 
   std::uint32_t begin_station() const { return static_cast<std::uint32_t>(pairs_.size()); }
@@ -276,4 +277,4 @@ class WallSearch {
 
 std::vector<Wall> find_walls(const CrackChain& chain, double tolerance) { return WallSearch(tolerance).search(chain); }
 
-}  // namespace scarp
+}  // namespace scarp::features

@@ -7,7 +7,7 @@
 #include "features/crack_chains.h"
 #include "grid/vertex_lattice.h"
 
-namespace scarp {
+namespace scarp::features {
 
 /// A vertex of a line, in units of 1 / kLatticeSteps of a sample.
 struct WallVertex {
@@ -30,4 +30,4 @@ std::vector<Wall> find_walls(const CrackChain& chain, double tolerance);
 
 inline constexpr std::uint64_t kWallBytesPerCrack = 1000;
 
-}  // namespace scarp
+}  // namespace scarp::features

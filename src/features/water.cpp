@@ -46,18 +46,18 @@ class Shores {
     return polygons;
   }
 
-  Result<LineSamples> read_samples(const std::vector<Rings>& polygons) const {
-    if (field_.samples != nullptr) return LineSamples(Raster{field_.samples, field_.cols, field_.rows});
-    std::vector<Segment> courses;
+  Result<lines::LineSamples> read_samples(const std::vector<Rings>& polygons) const {
+    if (field_.samples != nullptr) return lines::LineSamples(grid::Raster{field_.samples, field_.cols, field_.rows});
+    std::vector<geom::Segment> courses;
     for (const Rings& rings : polygons) {
-      SCARP_TRY(const auto& found, find_courses(rings, options_.affine, field_.cols, field_.rows));
+      SCARP_TRY(const auto& found, lines::find_courses(rings, options_.affine, field_.cols, field_.rows));
       courses.insert(courses.end(), found.begin(), found.end());
     }
-    return LineSamples::read(field_, courses);
+    return lines::LineSamples::read(field_, courses);
   }
 
   /// The percentile of the surface along the rings; nothing if the surface has no valid point there.
-  std::optional<double> level_of(Rings rings, const LineSamples& samples) const {
+  std::optional<double> level_of(Rings rings, const lines::LineSamples& samples) const {
     std::vector<float> heights;
     for (const Line& ring : rings) {
       for (std::size_t k = 0; k + 1 < ring.points.size(); ++k) {
@@ -67,7 +67,8 @@ class Shores {
         const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
         for (int i = 0; i < looks; ++i) {
           const double at = static_cast<double>(i) / looks;
-          const double height = surface_at(samples, {p.col + at * (q.col - p.col), p.row + at * (q.row - p.row)});
+          const double height =
+              lines::surface_at(samples, {p.col + at * (q.col - p.col), p.row + at * (q.row - p.row)});
           if (!std::isnan(height)) heights.push_back(static_cast<float>(height));
         }
       }
@@ -85,15 +86,16 @@ class Shores {
     std::array<double, 6> affine = options_.affine;
     affine[0] += box.col * affine[1] + box.row * affine[2];
     affine[3] += box.col * affine[4] + box.row * affine[5];
-    LineRuns marks(affine, box.cols, box.rows);
+    grid::LineRuns marks(affine, box.cols, box.rows);
     marks.add_polygons(rings);
     // Lines are rounded to the lattice; samples that the rounding moves into the lake belong to it.
     for (const Line& ring : rings) marks.add_course(ring, 1.0 / 128);
-    for (const auto& [row, begin, end] : marks.runs()) visit(SampleRun{box.row + row, box.col + begin, box.col + end});
+    for (const auto& [row, begin, end] : marks.runs())
+      visit(grid::SampleRun{box.row + row, box.col + begin, box.col + end});
   }
 
  private:
-  SamplePosition position_of(const std::array<double, 3>& point) const {
+  grid::SamplePosition position_of(const std::array<double, 3>& point) const {
     return to_samples_.position(point[0], point[1]);
   }
 
@@ -120,12 +122,12 @@ class Shores {
 
   HeightField field_;
   const WaterOptions& options_;
-  MapToSamples to_samples_;
+  grid::MapToSamples to_samples_;
 };
 
 struct LakeRun {
   std::uint32_t lake = 0;
-  SampleRun samples;
+  grid::SampleRun samples;
 };
 
 /// Sets the samples of lakes to their levels, row by row. Only lakes that contain a sample affect the sample, in their
@@ -173,7 +175,7 @@ class Flattening {
   }
 
   /// The changes in the last flattened row, for a source.
-  void take_runs(std::int32_t row, std::vector<LevelRun>& runs) {
+  void take_runs(std::int32_t row, std::vector<grid::LevelRun>& runs) {
     const auto at = [](std::int32_t x) { return static_cast<std::size_t>(x); };
     for (std::int32_t x = first_; x < last_;) {
       const std::int32_t begin = x;
@@ -181,7 +183,7 @@ class Flattening {
       while (x < last_ && water_[at(x)] == water && (water != 0 || rim_[at(x)] == rim)) ++x;
       if (water == 0 && rim == 0) continue;
       Lake& lake = lakes_[std::max(water, rim) - 1];
-      lake.bytes += sizeof(LevelRun);
+      lake.bytes += sizeof(grid::LevelRun);
       const float height = water != 0 ? static_cast<float>(lake.level) : rims_[rim - 1];
       runs.push_back({{row, begin, x}, height, water == 0});
     }
@@ -259,7 +261,7 @@ Result<void> check_options(const WaterOptions& options) {
 std::vector<LakeRun> find_runs(const Shores& shores, const std::vector<Rings>& rings) {
   std::vector<LakeRun> runs;
   for (std::uint32_t lake = 0; lake < rings.size(); ++lake)
-    shores.each_run(rings[lake], [&](const SampleRun& samples) { runs.push_back({lake, samples}); });
+    shores.each_run(rings[lake], [&](const grid::SampleRun& samples) { runs.push_back({lake, samples}); });
   std::sort(runs.begin(), runs.end(), [](const LakeRun& a, const LakeRun& b) {
     return std::tuple(a.samples.row, a.lake, a.samples.begin) < std::tuple(b.samples.row, b.lake, b.samples.begin);
   });
@@ -271,8 +273,8 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
                            OwnedHeightField& field) {
   Flattening flattening(runs, options.freeboard, field.cols, lakes);
   Reporter reporter(options.run.progress);
-  std::optional<RowReader> reader;
-  std::vector<LevelRun> levels;
+  std::optional<grid::RowReader> reader;
+  std::vector<grid::LevelRun> levels;
   if (field.source) reader.emplace(field.view());
   field.own();
   for (auto row = flattening.next_row(0); row && *row < field.rows; row = flattening.next_row(*row + 1)) {
@@ -287,7 +289,7 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
     }
     flattening.clear();
   }
-  if (!levels.empty()) field.source = level_source(std::move(field.source), std::move(levels));
+  if (!levels.empty()) field.source = grid::level_source(std::move(field.source), std::move(levels));
   return {};
 }
 
@@ -332,7 +334,7 @@ Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const
   const Shores shores(field, options);
   const std::vector<Rings> polygons = shores.find_polygons(lines);
   std::uint64_t bytes = 0;
-  for (const Rings& rings : polygons) bytes += line_bytes(field, rings, options.affine);
+  for (const Rings& rings : polygons) bytes += lines::line_bytes(field, rings, options.affine);
   const MemoryBudget memory{options.run.memory.limit, options.run.memory.taken, 0};
   SCARP_RETURN_IF_ERROR(memory.check_start(bytes));
   SCARP_TRY(auto&& found, find_levels(shores, polygons));

@@ -9,7 +9,7 @@
 #include "base/sort.h"
 #include "fit/fan.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -68,8 +68,9 @@ bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
   FitCorner best;
   const Fan fan(polygon_.size(), [this](std::size_t i) -> const FitCorner& { return corner(i); });
   const auto look = [&](double x, double y, double z) {
-    FitCorner place{static_cast<std::int32_t>(std::lround(x / kFreeStep)) * kFreeStep,
-                    static_cast<std::int32_t>(std::lround(y / kFreeStep)) * kFreeStep, static_cast<float>(z)};
+    FitCorner place{static_cast<std::int32_t>(std::lround(x / grid::kFreeStep)) * grid::kFreeStep,
+                    static_cast<std::int32_t>(std::lround(y / grid::kFreeStep)) * grid::kFreeStep,
+                    static_cast<float>(z)};
     if (!fan.fits(place, rules_.shape, floor_)) return false;
     const auto raised = fan.raise(loose_, rules_, place, [&](double energy) { return energy < least; });
     const auto energy = raised.energy < kNever ? static_cast<float>(raised.least) : kNever;
@@ -147,4 +148,4 @@ Collapse::Counts Collapse::run(FunctionRef<bool(Patch::Id)> is_wanted, const std
   return counts;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

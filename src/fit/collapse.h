@@ -26,7 +26,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class Collapse {
  public:
@@ -67,4 +67,4 @@ class Collapse {
   std::vector<Patch::RingTriangle> fan_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

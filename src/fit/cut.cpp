@@ -10,7 +10,7 @@
 #include "base/bits.h"
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -25,13 +25,13 @@ struct PointBox {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   bool fits() const {
-    constexpr std::int32_t kMost = kMaxFitSteps / kLatticeSteps;
+    constexpr std::int32_t kMost = kMaxFitSteps / grid::kLatticeSteps;
     return high.x - low.x <= kMost && high.y - low.y <= kMost;
   }
 };
 
 /// The rank of a half-edge in its patch, from the index of its triangle there.
-std::size_t rank_in(const std::vector<std::uint32_t>& indices, HalfEdge h) {
+std::size_t rank_in(const std::vector<std::uint32_t>& indices, tin::HalfEdge h) {
   return 3 * std::size_t{indices[h / 3]} + h % 3;
 }
 
@@ -39,22 +39,22 @@ std::size_t rank_in(const std::vector<std::uint32_t>& indices, HalfEdge h) {
 
 /// Half-edges on the border of a patch: old names, in the order of cutting, and new names.
 struct PatchCutter::Borders {
-  std::vector<HalfEdge> before, now;
+  std::vector<tin::HalfEdge> before, now;
 };
 
 /// A triangulation under construction.
 struct PatchCutter::Parts {
-  Triangulation::Arrays arrays;
-  std::vector<Vertex> numbers;      // by old vertex
-  std::vector<std::size_t> begins;  // by patch, its first triangle; the last patch: outside
-  std::vector<Borders> borders;     // by patch
+  tin::Triangulation::Arrays arrays;
+  std::vector<tin::Vertex> numbers;  // by old vertex
+  std::vector<std::size_t> begins;   // by patch, its first triangle; the last patch: outside
+  std::vector<Borders> borders;      // by patch
 };
 
-PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice,
+PatchCutter::PatchCutter(const grid::Raster& raster, const tin::Triangulation& tin, const grid::VertexLattice& lattice,
                          const PatchGrid& grid, const FreeSides& free_sides, int threads,
                          const ScatteredSamples* points)
     : raster_(raster), tin_(tin), lattice_(lattice), grid_(grid), free_sides_(free_sides), threads_(threads) {
-  constexpr std::int64_t kSteps = kLatticeSteps;
+  constexpr std::int64_t kSteps = grid::kLatticeSteps;
   last_ = points != nullptr ? LatticePoint{points->last().x, points->last().y}
                             : LatticePoint{(raster.cols - 1) * kSteps, (raster.rows - 1) * kSteps};
   const auto squares = [&](std::int32_t samples) {
@@ -75,11 +75,11 @@ PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const V
 
 /// Fills square_. Returns each triangle's block, numbered in the order in memory.
 std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
-  const auto count = static_cast<Triangle>(tin_.triangle_count());
+  const auto count = static_cast<tin::Triangle>(tin_.triangle_count());
   std::vector<std::uint32_t> blocks(count);
   square_.resize(count);
   const std::int64_t side = 3 * std::int64_t{grid_.side}, shift = 3 * std::int64_t{grid_.shift};
-  const auto assign = [&](Triangle t) {
+  const auto assign = [&](tin::Triangle t) {
     if (tin_.is_outside(t)) {
       square_[t] = static_cast<std::uint32_t>(outside);
       blocks[t] = static_cast<std::uint32_t>(outside * kBlocks);
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
   constexpr std::size_t kChunk = 65'536;
   parallel_for((count + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
     const auto end = std::min<std::size_t>(count, (chunk + 1) * kChunk);
-    for (std::size_t t = chunk * kChunk; t < end; ++t) assign(static_cast<Triangle>(t));
+    for (std::size_t t = chunk * kChunk; t < end; ++t) assign(static_cast<tin::Triangle>(t));
   });
   return blocks;
 }
@@ -107,18 +107,18 @@ void PatchCutter::sort_by(const std::vector<std::uint32_t>& blocks, std::size_t 
   for (const std::uint32_t block : blocks) ++begins[block + 1];
   for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
   order_.resize(blocks.size());
-  for (Triangle t = 0; t < blocks.size(); ++t) order_[begins[blocks[t]]++] = t;
+  for (tin::Triangle t = 0; t < blocks.size(); ++t) order_[begins[blocks[t]]++] = t;
 }
 
-bool PatchCutter::is_inner(HalfEdge h, std::size_t i) const {
+bool PatchCutter::is_inner(tin::HalfEdge h, std::size_t i) const {
   return !tin_.is_constrained(h) && square_[tin_.twin(h) / 3] == i;
 }
 
-Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const {
+Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<tin::Vertex>& vertices) const {
   Patch patch;
   const bool fits = add_nodes(i, scratch, patch, vertices);
   add_faces(i, scratch, patch);
-  for (const Vertex v : vertices) scratch.ids[v] = kNone;
+  for (const tin::Vertex v : vertices) scratch.ids[v] = tin::kNone;
   if (fits) {
     lock(patch);
   } else {
@@ -127,18 +127,18 @@ Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& ver
   return patch;
 }
 
-float PatchCutter::height_of(Vertex v) const {
+float PatchCutter::height_of(tin::Vertex v) const {
   return lattice_.heights.empty() ? raster_.at(tin_.point(v)) : lattice_.heights[v];
 }
 
-bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
+bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<tin::Vertex>& vertices) const {
   vertices.clear();
-  if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), kNone);
+  if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), tin::kNone);
   PointBox box;
   for (std::size_t k = begins_[i]; k < begins_[i + 1]; ++k) {
-    for (HalfEdge h = 3 * order_[k]; h < 3 * order_[k] + 3; ++h) {
-      const Vertex v = tin_.origin(h);
-      if (scratch.ids[v] != kNone) continue;
+    for (tin::HalfEdge h = 3 * order_[k]; h < 3 * order_[k] + 3; ++h) {
+      const tin::Vertex v = tin_.origin(h);
+      if (scratch.ids[v] != tin::kNone) continue;
       scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
       vertices.push_back(v);
       const Point p = tin_.point(v);
@@ -151,14 +151,14 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
   patch.nodes_.resize(vertices.size());
   patch.locked_.assign(vertices.size(), 0);
   if (!box.fits()) return false;
-  const std::int32_t scale = kLatticeSteps / lattice_.steps;
+  const std::int32_t scale = grid::kLatticeSteps / lattice_.steps;
   bool fits = true;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
     if (!lattice_.fixed.empty()) patch.locked_[n] = lattice_.fixed[vertices[n]];
     const Point p = tin_.point(vertices[n]);
     const float z = height_of(vertices[n]);
     patch.nodes_[n].at = {(p.x - box.low.x * lattice_.steps) * scale, (p.y - box.low.y * lattice_.steps) * scale, z};
-    fits = fits && std::abs(z) <= kMaxScanHeight;
+    fits = fits && std::abs(z) <= geom::kMaxScanHeight;
   }
   return fits;
 }
@@ -169,10 +169,10 @@ void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch)
     Patch::Face& face = patch.faces_[f];
     face.worst = face.energy = -1;
     for (unsigned k = 0; k < 3; ++k) {
-      const HalfEdge h = 3 * order_[begins_[i] + f] + k, g = tin_.twin(h);
+      const tin::HalfEdge h = 3 * order_[begins_[i] + f] + k, g = tin_.twin(h);
       face.corners[k] = scratch.ids[tin_.origin(h)];
       patch.nodes_[face.corners[k]].face = f;
-      if (g == kNone) {
+      if (g == tin::kNone) {
         face.links[k] = tin_.is_constrained(h) ? Patch::kConstrainedSide : Patch::kSide;
       } else if (is_inner(h, i)) {
         face.links[k] = index_in_patch_[g / 3] << 2 | g % 3;
@@ -185,7 +185,7 @@ void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch)
 }
 
 void PatchCutter::lock(Patch& patch) const {
-  constexpr std::int64_t kSteps = kLatticeSteps;
+  constexpr std::int64_t kSteps = grid::kLatticeSteps;
   const auto point_of = [&](Patch::Id v) {
     const FitCorner& at = patch.nodes_[v].at;
     return LatticePoint{at.x + patch.window_.first.x * kSteps, at.y + patch.window_.first.y * kSteps};
@@ -210,10 +210,10 @@ bool PatchCutter::is_on_free_side(const LatticePoint& p, const LatticePoint& q) 
   return p.y == 0 ? free_sides_.top : free_sides_.bottom;
 }
 
-Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
-                                std::vector<Vertex>& numbers, VertexLattice& joined) const {
+tin::Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vector<tin::Vertex>> vertices,
+                                     std::vector<tin::Vertex>& numbers, grid::VertexLattice& joined) const {
   Parts parts;
-  auto names = static_cast<Vertex>(tin_.vertex_count());
+  auto names = static_cast<tin::Vertex>(tin_.vertex_count());
   for (std::size_t i = 0; i < patches.size(); ++i) {
     while (vertices[i].size() < patches[i].node_count()) vertices[i].push_back(names++);
   }
@@ -232,18 +232,18 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vec
     patches[i] = {};
   });
   add_outside(parts);
-  const auto link = [&](HalfEdge before, HalfEdge now) {
-    const HalfEdge twin = tin_.twin(before);
-    parts.arrays.twins[now] = twin == kNone ? kNone : name_now(twin, parts);
+  const auto link = [&](tin::HalfEdge before, tin::HalfEdge now) {
+    const tin::HalfEdge twin = tin_.twin(before);
+    parts.arrays.twins[now] = twin == tin::kNone ? tin::kNone : name_now(twin, parts);
   };
   parallel_for(patches.size(), threads_, [&](std::size_t i) {
     const auto& [before, now] = parts.borders[i];
     // Both sides of a constrained edge are borders, mostly of the same patch.
-    const auto names = make_unfilled<HalfEdge>(3 * (begins_[i + 1] - begins_[i]));
+    const auto names = make_unfilled<tin::HalfEdge>(3 * (begins_[i + 1] - begins_[i]));
     for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(index_in_patch_, before[n])] = now[n];
     for (std::size_t n = 0; n < before.size(); ++n) {
-      const HalfEdge twin = tin_.twin(before[n]);
-      if (twin != kNone && square_[twin / 3] == i) {
+      const tin::HalfEdge twin = tin_.twin(before[n]);
+      if (twin != tin::kNone && square_[twin / 3] == i) {
         parts.arrays.twins[now[n]] = names[rank_in(index_in_patch_, twin)];
       } else {
         link(before[n], now[n]);
@@ -251,56 +251,57 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vec
     }
   });
   for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
-    for (HalfEdge h = 3 * order_[n]; h < 3 * order_[n] + 3; ++h) link(h, name_now(h, parts));
+    for (tin::HalfEdge h = 3 * order_[n]; h < 3 * order_[n] + 3; ++h) link(h, name_now(h, parts));
   }
   numbers = std::move(parts.numbers);
-  return Triangulation(std::move(parts.arrays));
+  return tin::Triangulation(std::move(parts.arrays));
 }
 
 /// The new name of a half-edge on the border of a patch, or outside.
-HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
+tin::HalfEdge PatchCutter::name_now(tin::HalfEdge before, const Parts& parts) const {
   const std::size_t square = square_[before / 3];
   if (square == count())
-    return static_cast<HalfEdge>(3 * (parts.begins.back() + index_in_patch_[before / 3]) + before % 3);
+    return static_cast<tin::HalfEdge>(3 * (parts.begins.back() + index_in_patch_[before / 3]) + before % 3);
   const auto& [names, now] = parts.borders[square];
-  const auto found = std::lower_bound(names.begin(), names.end(), before, [&](HalfEdge a, HalfEdge b) {
+  const auto found = std::lower_bound(names.begin(), names.end(), before, [&](tin::HalfEdge a, tin::HalfEdge b) {
     return rank_in(index_in_patch_, a) < rank_in(index_in_patch_, b);
   });
   assert(found != names.end() && *found == before);
   return now[static_cast<std::size_t>(found - names.begin())];
 }
 
-void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
-                                  Parts& parts) const {
+void PatchCutter::number_vertices(const std::vector<Patch>& patches,
+                                  const std::vector<std::vector<tin::Vertex>>& vertices, Parts& parts) const {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
-      if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = kNone;
+      if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = tin::kNone;
     }
   }
-  Vertex count = 0;
-  for (Vertex& number : parts.numbers) {
-    if (number != kNone) number = count++;
+  tin::Vertex count = 0;
+  for (tin::Vertex& number : parts.numbers) {
+    if (number != tin::kNone) number = count++;
   }
   parts.arrays.points.resize(count);
 }
 
-void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
-                                 Parts& parts, VertexLattice& joined) const {
+void PatchCutter::place_vertices(const std::vector<Patch>& patches,
+                                 const std::vector<std::vector<tin::Vertex>>& vertices, Parts& parts,
+                                 grid::VertexLattice& joined) const {
   const bool has_heights = joined.steps > 1;
   joined.heights.assign(has_heights ? parts.arrays.points.size() : 0, 0);
   joined.fixed.assign(lattice_.fixed.empty() ? 0 : parts.arrays.points.size(), 0);
-  const auto place = [&](Vertex number, Point p, float z) {
+  const auto place = [&](tin::Vertex number, Point p, float z) {
     parts.arrays.points[number] = p;
     if (has_heights) joined.heights[number] = z;
   };
   const std::int32_t scale = joined.steps / lattice_.steps;
-  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
-    if (parts.numbers[v] == kNone) continue;
+  for (tin::Vertex v = 0; v < tin_.vertex_count(); ++v) {
+    if (parts.numbers[v] == tin::kNone) continue;
     const Point p = tin_.point(v);
     place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? height_of(v) : 0);
     if (!lattice_.fixed.empty()) joined.fixed[parts.numbers[v]] = lattice_.fixed[v];
   }
-  const std::int32_t shrink = kLatticeSteps / joined.steps;
+  const std::int32_t shrink = grid::kLatticeSteps / joined.steps;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const Point first = patches[i].window().first;
     for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
@@ -313,8 +314,9 @@ void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::v
 }
 
 /// Writes to the patch's own elements only.
-void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
-  const auto base = static_cast<Triangle>(parts.begins[i]);
+void PatchCutter::add_patch(const Patch& patch, const std::vector<tin::Vertex>& names, std::size_t i,
+                            Parts& parts) const {
+  const auto base = static_cast<tin::Triangle>(parts.begins[i]);
   Borders& borders = parts.borders[i];
   borders.before = patch.fixed();
   borders.now.resize(borders.before.size());
@@ -322,10 +324,10 @@ void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names
     const Patch::Face& face = patch.face(f);
     std::uint8_t flags = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      const HalfEdge h = 3 * (base + f) + k;
+      const tin::HalfEdge h = 3 * (base + f) + k;
       const Patch::Link link = face.links[k];
       parts.arrays.corners[h] = parts.numbers[names[face.corners[k]]];
-      parts.arrays.twins[h] = kNone;
+      parts.arrays.twins[h] = tin::kNone;
       bool is_constrained = link == Patch::kConstrainedSide;
       if (!Patch::is_border(link)) {
         parts.arrays.twins[h] = 3 * (base + Patch::triangle_of(link)) + Patch::edge_of(link);
@@ -341,11 +343,11 @@ void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names
 }
 
 void PatchCutter::add_outside(Parts& parts) const {
-  auto t = static_cast<Triangle>(parts.begins.back());
+  auto t = static_cast<tin::Triangle>(parts.begins.back());
   for (std::size_t n = begins_.back(); n < order_.size(); ++n, ++t) {
-    std::uint8_t flags = Triangulation::Arrays::kOutside;
+    std::uint8_t flags = tin::Triangulation::Arrays::kOutside;
     for (unsigned k = 0; k < 3; ++k) {
-      const HalfEdge old = 3 * order_[n] + k;
+      const tin::HalfEdge old = 3 * order_[n] + k;
       parts.arrays.corners[3 * t + k] = parts.numbers[tin_.origin(old)];
       if (tin_.is_constrained(old)) flags |= static_cast<std::uint8_t>(1u << k);
     }
@@ -353,4 +355,4 @@ void PatchCutter::add_outside(Parts& parts) const {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

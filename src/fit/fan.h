@@ -12,7 +12,7 @@
 #include "fit/triangle_error.h"
 #include "geom/scan_plane.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// CornerAt: corner(i) for 0 <= i <= triangles; triangle i lies between the place, corner(i) and corner(i + 1).
 template <typename CornerAt>
@@ -61,7 +61,7 @@ class Fan {
     }
     const auto height = static_cast<float>(double{place.z} + rise * error.unit());
     raised.place.z = std::clamp(height, rules.lowest, rules.highest);
-    if (!(std::abs(raised.place.z) <= kMaxScanHeight)) raised.energy = std::numeric_limits<double>::infinity();
+    if (!(std::abs(raised.place.z) <= geom::kMaxScanHeight)) raised.energy = std::numeric_limits<double>::infinity();
     return raised;
   }
 
@@ -70,4 +70,4 @@ class Fan {
   CornerAt corner_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -8,7 +8,7 @@
 #include "fit/rounds.h"
 #include "fit/square_rounds.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -16,10 +16,10 @@ namespace {
 constexpr double kWorthARound = 1e-3;
 constexpr int kPoorRounds = 2;
 
-bool is_small(const Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
+bool is_small(const tin::Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
 
 /// Side of squares with some kPatchTriangles triangles; on a narrow raster, length of pieces.
-std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
+std::int32_t patch_side(const grid::Raster& raster, const tin::Triangulation& tin) {
   const double cols = raster.cols, rows = raster.rows;
   const double area = cols * rows * kPatchTriangles / static_cast<double>(tin.triangle_count());
   const double side = std::max(std::sqrt(area), area / std::min(cols, rows));
@@ -35,7 +35,8 @@ bool has_energies(const FitOptions& options) {
 
 }  // namespace
 
-Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options) {
+Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+                   const FitOptions& options) {
   const std::int32_t longest = std::max(raster.cols, raster.rows);
   const std::int32_t most = options.most_side > 0 ? std::min(options.most_side, longest) : longest;
   const bool is_cut = most < longest || (options.patch_side > 0 ? options.patch_side < longest : !is_small(tin));
@@ -81,4 +82,4 @@ Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattic
   return rounds.finish();
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -33,7 +33,7 @@
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct FitDepth {
   /// After the first removal each vertex moves to a better sample, and removal continues (relocation.h).
@@ -126,12 +126,12 @@ struct FitCounts {
 };
 
 struct Fitted {
-  Triangulation tin;  ///< its points count in lattice.steps
+  tin::Triangulation tin;  ///< its points count in lattice.steps
   FitCounts counts;
   /// If vertices were free, this lattice has kLatticeSteps steps per sample, and heights; otherwise vertices are
   /// samples. Heights lie between the lowest and the highest valid sample of the raster, so no vertex is below a sea of
   /// height 0.
-  VertexLattice lattice;
+  grid::VertexLattice lattice;
   bool is_cut_short = false;  ///< because the time was up
 };
 
@@ -145,9 +145,10 @@ struct Fitted {
 /// on samples. Fails with kCancelled only. REQUIRES: the triangles inside are within the threshold, by the norm's
 /// find_breach if there is one, and have valid corners; threshold >= 0 and finite. Vertices are free, or the depth has
 /// no rounds, or each vertex is a sample unless it is fixed or an end of a constrained edge within the rectangle.
-Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
-inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
+Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+                   const FitOptions& options);
+inline Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

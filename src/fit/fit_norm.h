@@ -11,7 +11,7 @@
 #include "base/point.h"
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// The most fields that can be combined.
 inline constexpr std::size_t kMostFitFields = 65;
@@ -30,4 +30,4 @@ struct FitNorm {
   std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

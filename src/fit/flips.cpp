@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -79,4 +79,4 @@ void Flips::flip(const Patch::Quad& q, const TriangleError::Verdict& near, const
   patch_.set_measure(q.beyond, far.worst, far.energy);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

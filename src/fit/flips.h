@@ -16,7 +16,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class Flips {
  public:
@@ -52,4 +52,4 @@ class Flips {
   std::array<Trial, kRefusals> refused_;  // by hash, the last trial of each
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

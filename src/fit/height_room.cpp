@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::fit {
 
 std::optional<double> rise_in(const TriangleError::Room& room, double wish, double scale) {
   constexpr double kMargin = 1e-4;
@@ -12,4 +12,4 @@ std::optional<double> rise_in(const TriangleError::Room& room, double wish, doub
   return std::clamp(wish, lowest + margin, highest - margin);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -23,10 +23,10 @@
 
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// The rise nearest to the wish in the room; if the room is wide enough, at least a ten-thousandth of the scale from
 /// its ends. Nothing if there is no room.
 std::optional<double> rise_in(const TriangleError::Room& room, double wish, double scale = 1);
 
-}  // namespace scarp
+}  // namespace scarp::fit

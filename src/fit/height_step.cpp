@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -58,4 +58,4 @@ double scale_of_rises(const TriangleError::Moments& moments) {
   return scale > 0 && std::isfinite(scale) ? scale : 1;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

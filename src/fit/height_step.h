@@ -13,7 +13,7 @@
 
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct HeightStep {
   double rise = 0;    ///< in thresholds, or units
@@ -32,4 +32,4 @@ double energy_after(const TriangleError::Moments& moments, double rise);
 /// By Minkowski's inequality the minimum lies within twice this rise. 1 if the moments do not determine it.
 double scale_of_rises(const TriangleError::Moments& moments);
 
-}  // namespace scarp
+}  // namespace scarp::fit

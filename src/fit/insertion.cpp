@@ -7,7 +7,7 @@
 #include "fit/fan.h"
 #include "fit/schedule.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -19,14 +19,14 @@ void Insertion::run(std::size_t most) {
   stamps_.assign(patch_.face_count(), 0);
   heap_.clear();
   for (Patch::Id f = 0; f < patch_.face_count(); ++f) {
-    if (patch_.face(f).corners[0] != kNone) offer(f);
+    if (patch_.face(f).corners[0] != tin::kNone) offer(f);
   }
   std::size_t count = count_faces(patch_);
   while (!heap_.empty() && count + 2 <= most) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
     const Offer best = heap_.back();
     heap_.pop_back();
-    if (patch_.face(best.face).corners[0] == kNone) continue;
+    if (patch_.face(best.face).corners[0] == tin::kNone) continue;
     if (!is_fresh(best)) {
       offer(best.face);
       continue;
@@ -76,15 +76,15 @@ Insertion::Offer Insertion::best_at(Patch::Id face) {
 /// Accepts the place, at its best height, if it gains more than the best so far.
 void Insertion::try_place(double x, double y, Offer& best, const Offer& kind) {
   const bool is_free = rules_.freedom == Freedom::kLattice;
-  const std::int32_t unit = is_free ? kFreeStep : kLatticeSteps;
+  const std::int32_t unit = is_free ? grid::kFreeStep : grid::kLatticeSteps;
   FitCorner place{static_cast<std::int32_t>(std::lround(x / unit)) * unit,
                   static_cast<std::int32_t>(std::lround(y / unit)) * unit, rim_.front().z};
   if (!is_free && error_.has_points()) {
     place = error_.place_of(error_.sample_near(place));
   } else if (!is_free) {
-    place.z = error_.height_at({place.x / kLatticeSteps, place.y / kLatticeSteps});
+    place.z = error_.height_at({place.x / grid::kLatticeSteps, place.y / grid::kLatticeSteps});
   }
-  if (!(std::abs(place.z) <= kMaxScanHeight)) return;
+  if (!(std::abs(place.z) <= geom::kMaxScanHeight)) return;
   const auto corner = [this](std::size_t i) -> const FitCorner& { return rim_[i % rim_.size()]; };
   const Fan fan(rim_.size(), corner);
   if (!fan.fits(place, rules_.shape, floor_)) return;
@@ -117,4 +117,4 @@ void Insertion::take(const Offer& offered) {
   for (const Patch::Id f : star_.faces) offer(f);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -18,7 +18,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class Insertion {
  public:
@@ -58,4 +58,4 @@ class Insertion {
   Patch::Star star_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

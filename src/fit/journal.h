@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace scarp {
+namespace scarp::fit {
 
 template <class T>
 class Journal {
@@ -47,4 +47,4 @@ class Journal {
   bool is_open_ = false;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace scarp {
+namespace scarp::fit {
 
 class LazyQueue {
  public:
@@ -75,4 +75,4 @@ class LazyQueue {
   std::vector<Item> waiting_, asked_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -7,13 +7,13 @@
 
 #include "fit/norm_scan.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
 /// True if the triangle contains no samples except its corners.
 bool holds_corners_alone(const NormError::Corners& corners) {
-  return area2(corners[0], corners[1], corners[2]) == kLatticeSteps * kLatticeSteps;
+  return area2(corners[0], corners[1], corners[2]) == grid::kLatticeSteps * grid::kLatticeSteps;
 }
 
 /// The verdict on a triangle within the bound.
@@ -171,10 +171,11 @@ NormError::Verdict NormError::assess_slowly(const Corners& corners, float energy
 std::optional<Point> NormError::find_breach(const Corners& corners) const {
   std::array<Point, 3> points;
   for (std::size_t k = 0; k < 3; ++k)
-    points[k] = {corners[k].x / kLatticeSteps + samples_.origin.x, corners[k].y / kLatticeSteps + samples_.origin.y};
+    points[k] = {corners[k].x / grid::kLatticeSteps + samples_.origin.x,
+                 corners[k].y / grid::kLatticeSteps + samples_.origin.y};
   auto breach = norm_.find_breach(points);
   if (breach) *breach = {breach->x - samples_.origin.x, breach->y - samples_.origin.y};
   return breach;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

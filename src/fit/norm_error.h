@@ -21,7 +21,7 @@
 #include "fit/triangle_error.h"
 #include "grid/raster.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct NormScan;
 struct NormPlanes;
@@ -34,7 +34,7 @@ class NormError {
 
   /// The samples under the triangles, in the raster or copied from it.
   struct Samples {
-    Raster heights;                    ///< decides which samples are valid
+    grid::Raster heights;              ///< decides which samples are valid
     std::vector<const float*> fields;  ///< in the order of the norm, each parallel to the heights
     Point first;                       ///< origin from which corners are counted
     Point origin;                      ///< the same sample in the whole raster
@@ -53,7 +53,7 @@ class NormError {
   /// REQUIRES, cost: as for assess().
   void pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const;
 
-  const Raster& heights() const { return samples_.heights; }
+  const grid::Raster& heights() const { return samples_.heights; }
   Point first() const { return samples_.first; }
   Norm norm() const { return norm_.norm; }
   std::size_t field_count() const { return norm_.fields.size(); }
@@ -82,9 +82,9 @@ class NormError {
 
   const FitNorm& norm_;
   Samples samples_;
-  Raster bounds_;
+  grid::Raster bounds_;
   double unit_;
   double per_unit_;  // 0: errors have no energy, and find_breach decides all
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

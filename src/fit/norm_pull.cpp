@@ -1,7 +1,7 @@
 // The pull of a triangle's samples on one of its corners, where several fields count together.
 #include "fit/norm_scan.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -32,8 +32,8 @@ Floats weight_of(Floats norm, Floats error) {
 template <Norm kNorm, ErrorRule::Power kPower>
 void sum_up(const NormScan& scan, const NormPlanes& planes, std::array<FieldSums, kMostFitFields>& sums) {
   const auto& [a, b, c] = planes.task.corners;
-  constexpr double kStep = 1.0 / kLatticeSteps;
-  const ScanPlane weight = ScanPlane::spanned(
+  constexpr double kStep = 1.0 / grid::kLatticeSteps;
+  const geom::ScanPlane weight = geom::ScanPlane::spanned(
       1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
   const std::size_t count = scan.norm.fields.size();
   const Floats least = all(least_bound(planes));
@@ -97,4 +97,4 @@ void NormError::pull(const Corners& corners, ErrorRule::Power power, std::vector
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

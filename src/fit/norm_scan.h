@@ -9,7 +9,7 @@
 #include "fit/norm_error.h"
 #include "fit/triangle_scan.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// The form in which norms are summed and compared: the square if the norm is a root of squares, else the norm itself.
 template <Norm kNorm>
@@ -28,7 +28,7 @@ struct NormPlanes;
 struct NormScan {
   const FitNorm& norm;
   const NormError::Samples& samples;
-  const Raster& bounds;
+  const grid::Raster& bounds;
   double per_unit;
 
   std::size_t index_of(std::int32_t x, std::int32_t y) const {
@@ -39,7 +39,7 @@ struct NormScan {
     return static_cast<std::size_t>(samples.heights.rows) * static_cast<std::size_t>(samples.heights.cols);
   }
   float value_at(std::size_t field, const FitCorner& corner) const {
-    return samples.fields[field][index_of(corner.x / kLatticeSteps, corner.y / kLatticeSteps)];
+    return samples.fields[field][index_of(corner.x / grid::kLatticeSteps, corner.y / grid::kLatticeSteps)];
   }
 
   template <Norm kNorm, class Visit>
@@ -59,18 +59,18 @@ struct NormPlanes {
       : task(corners[0], corners[1], corners[2], 0, 0),
         widening(0x1p-23f * static_cast<float>(scan.norm.fields.size() + 12)) {
     const auto& [a, b, c] = corners;
-    constexpr double kStep = 1.0 / kLatticeSteps;
+    constexpr double kStep = 1.0 / grid::kLatticeSteps;
     // Subnormal scales per unit round by more than their share.
     double sum = 0x1p-40;
     for (std::size_t k = 0; k < scan.norm.fields.size(); ++k) {
       const float za = scan.value_at(k, a), zb = scan.value_at(k, b), zc = scan.value_at(k, c);
-      are_finite = are_finite && std::max({std::abs(za), std::abs(zb), std::abs(zc)}) <= kMaxScanHeight;
+      are_finite = are_finite && std::max({std::abs(za), std::abs(zb), std::abs(zc)}) <= geom::kMaxScanHeight;
       if (!are_finite) return;
-      const ScanPlane plane =
-          ScanPlane::spanned(za,
-                             {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep,
-                              double{zb} - double{za}, double{zc} - double{za}},
-                             0);
+      const geom::ScanPlane plane =
+          geom::ScanPlane::spanned(za,
+                                   {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep,
+                                    double{zb} - double{za}, double{zc} - double{za}},
+                                   0);
       const double scale = scan.norm.fields[k].scale * scan.per_unit;
       fields[k] = {plane.slope_x, plane.slope_y, plane.height, static_cast<float>(scale)};
       sum += scale * double{plane.guard};
@@ -161,4 +161,4 @@ void NormScan::each_eight(const NormPlanes& planes, std::int32_t y, std::int32_t
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -7,7 +7,7 @@
 
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// Σ A u uᵀ d = −Σ B u for d = (z, x, y).
 class NormalEquations {
@@ -57,4 +57,4 @@ class NormalEquations {
   Row right_{};
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -86,8 +86,8 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
       open_.push_back(link_to(f, 0));
     }
   }
-  for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) change(star.faces[i]).corners[0] = kNone;
-  name_face(v, kNone);
+  for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) change(star.faces[i]).corners[0] = tin::kNone;
+  name_face(v, tin::kNone);
 }
 
 Patch::Id Patch::insert(const FitCorner& at, Id f) {
@@ -180,14 +180,14 @@ void Patch::roll_back() {
 }
 
 void Patch::pack() {
-  std::vector<Id> ids(faces_.size(), kNone);
+  std::vector<Id> ids(faces_.size(), tin::kNone);
   Id count = 0;
   for (Id f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].corners[0] != kNone) ids[f] = count++;
+    if (faces_[f].corners[0] != tin::kNone) ids[f] = count++;
   }
   std::vector<Face> packed(count);
   for (Id f = 0; f < faces_.size(); ++f) {
-    if (ids[f] == kNone) continue;
+    if (ids[f] == tin::kNone) continue;
     Face& face = packed[ids[f]] = faces_[f];
     for (Link& link : face.links) {
       if (!is_border(link)) link = link_to(ids[triangle_of(link)], edge_of(link));
@@ -197,4 +197,4 @@ void Patch::pack() {
   faces_ = std::move(packed);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -21,7 +21,7 @@
 #include "fit/triangle_error.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class Patch {
  public:
@@ -46,7 +46,7 @@ class Patch {
 
   struct Node {
     FitCorner at;
-    Id face = kNone;  ///< one of its triangles; kNone if the vertex was removed
+    Id face = tin::kNone;  ///< one of its triangles; kNone if the vertex was removed
   };
 
   /// Triangles around a vertex, and links beyond them.
@@ -71,10 +71,10 @@ class Patch {
   std::size_t node_count() const { return nodes_.size(); }
   const Face& face(Id f) const { return faces_[f]; }
   const FitCorner& at(Id v) const { return nodes_[v].at; }
-  bool is_removed(Id v) const { return nodes_[v].face == kNone; }
+  bool is_removed(Id v) const { return nodes_[v].face == tin::kNone; }
   bool is_locked(Id v) const { return locked_[v] != 0; }
   /// The half-edges of the triangulation that became borders, by index.
-  const std::vector<HalfEdge>& fixed() const { return fixed_; }
+  const std::vector<tin::HalfEdge>& fixed() const { return fixed_; }
   /// The samples that the triangles may read.
   struct Window {
     Point first;  ///< origin from which lattice points are counted
@@ -104,8 +104,8 @@ class Patch {
 
   /// The triangles (c, a, d) and (d, b, c) that would replace (a, b, c) and, beyond its edge a b, (b, a, d).
   struct Quad {
-    Id face = kNone, beyond = kNone;
-    Id a = kNone, b = kNone, c = kNone, d = kNone;
+    Id face = tin::kNone, beyond = tin::kNone;
+    Id a = tin::kNone, b = tin::kNone, c = tin::kNone, d = tin::kNone;
   };
   /// REQUIRES: the edge is no border.
   Quad quad(Id f, unsigned edge) const;
@@ -154,10 +154,10 @@ class Patch {
   std::vector<Face> faces_;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> locked_;
-  std::vector<HalfEdge> fixed_;
+  std::vector<tin::HalfEdge> fixed_;
   Journal<Face> face_journal_;
   Journal<Node> node_journal_;
   std::vector<Link> open_;  // edges that await their triangles
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

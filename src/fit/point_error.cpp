@@ -8,7 +8,7 @@
 #include "fit/triangle_sums.h"
 #include "geom/exact_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -111,7 +111,7 @@ bool PointError::keeps_exactly(const Task& task, std::size_t sample) const {
     heights[k] = double{task.corners[k].z};
   }
   const FitCorner at = window_.at(sample);
-  return !exceeds_exactly(corners, heights, {at.x, at.y}, double{at.z}, threshold_);
+  return !geom::exceeds_exactly(corners, heights, {at.x, at.y}, double{at.z}, threshold_);
 }
 
 PointError::Verdict PointError::assess(const Corners& corners, float energy_limit, double limit,
@@ -202,7 +202,7 @@ Sums PointError::ask(const Corners& corners, Sums sums) const {
 
 TriangleError::Pull PointError::pull(const Corners& corners, ErrorRule::Power power) const {
   const Task task(corners);
-  const double scale = kLatticeSteps * per_threshold_;
+  const double scale = grid::kLatticeSteps * per_threshold_;
   const double slope_x = task.slope_x() * scale, slope_y = task.slope_y() * scale;
   const auto pull_of = [&](const auto& sums) {
     return TriangleError::Pull{exact_sum_of(sums.stiffness), exact_sum_of(sums.push), slope_x, slope_y};
@@ -242,7 +242,8 @@ std::array<double, 2> PointError::slope_at(const FitCorner& place) const {
   xx -= sx * sx / n, xy -= sx * sy / n, yy -= sy * sy / n, xz -= sx * sz / n, yz -= sy * sz / n;
   const double determinant = xx * yy - xy * xy;
   if (!(determinant > 1e-6 * xx * yy)) return {0, 0};
-  return {(xz * yy - yz * xy) / determinant * kLatticeSteps, (yz * xx - xz * xy) / determinant * kLatticeSteps};
+  return {(xz * yy - yz * xy) / determinant * grid::kLatticeSteps,
+          (yz * xx - xz * xy) / determinant * grid::kLatticeSteps};
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -12,7 +12,7 @@
 #include "fit/point_samples.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// A sample is {its index in the window, 0}.
 class PointError final : public ScatteredErrors {
@@ -49,4 +49,4 @@ class PointError final : public ScatteredErrors {
   double steepest_ = 0;       // largest slope of new triangles, height per step
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -8,7 +8,7 @@
 #include "fit/point_error.h"
 #include "grid/vertex_lattice.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -83,7 +83,7 @@ const ScatteredErrors& PointSamples::over(const Patch::Window& window, double th
 }
 
 void PointWindow::read(const PointSamples& samples, const Patch::Window& window) {
-  constexpr std::int64_t kSteps = kLatticeSteps;
+  constexpr std::int64_t kSteps = grid::kLatticeSteps;
   unsorted_x_.clear();
   unsorted_y_.clear();
   unsorted_z_.clear();
@@ -162,4 +162,4 @@ std::size_t PointWindow::nearest(const FitCorner& place) const {
   return best;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -15,7 +15,7 @@
 #include "fit/scattered_samples.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class PointSamples final : public ScatteredSamples {
  public:
@@ -85,4 +85,4 @@ class PointWindow {
   int shift_ = 0;                      // binary logarithm of a bucket's side in steps
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -5,14 +5,14 @@
 #include "fit/repair.h"
 #include "fit/vertex_step.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 void relocate_vertices(Patch& patch, const TriangleError& error, const MoveRules& rules,
                        std::vector<std::uint8_t>& settled) {
   const TriangleError strict = error.with({1, ErrorRule::Power::kEight});
   const auto each_face = [&](const auto& visit) {
     for (Patch::Id f = 0; f < patch.face_count(); ++f) {
-      if (patch.face(f).corners[0] != kNone) visit(f);
+      if (patch.face(f).corners[0] != tin::kNone) visit(f);
     }
   };
   // If all vertices are locked, corners may be beyond the range of scans.
@@ -32,4 +32,4 @@ void relocate_vertices(Patch& patch, const TriangleError& error, const MoveRules
   each_face([&](Patch::Id f) { patch.set_measure(f, -1, -1); });
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -16,7 +16,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// Moves vertices within the bound. `settled`: by node, set to 0 where something around has changed. Errors and
 /// energies of triangles are unknown afterwards. REQUIRES: every triangle of the patch is within the threshold of
@@ -24,4 +24,4 @@ namespace scarp {
 void relocate_vertices(Patch& patch, const TriangleError& error, const MoveRules& rules,
                        std::vector<std::uint8_t>& settled);
 
-}  // namespace scarp
+}  // namespace scarp::fit

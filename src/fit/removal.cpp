@@ -4,7 +4,7 @@
 
 #include "fit/removal_queue.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -56,4 +56,4 @@ RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const Sh
   return {removal.removed(), queue.searches()};
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

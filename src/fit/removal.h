@@ -23,7 +23,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct RemovalCounts {
   std::uint64_t removed = 0;   ///< vertices
@@ -36,4 +36,4 @@ struct RemovalCounts {
 RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape,
                               const std::function<bool()>& is_time_up, std::vector<std::uint8_t>& settled);
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -14,7 +14,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class RemovalQueue {
  public:
@@ -113,4 +113,4 @@ class RemovalQueue {
   std::uint64_t searches_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -116,7 +116,7 @@ Repair::Excess Repair::excess() const {
   const double threshold = loose_.threshold();
   for (const auto& copy : patch_.touched()) {
     const Patch::Face& face = patch_.face(copy.index);
-    if (face.corners[0] == kNone || face.worst <= threshold) continue;
+    if (face.corners[0] == tin::kNone || face.worst <= threshold) continue;
     const double over = face.worst / threshold - 1;
     excess.any = true;
     excess.sum += over;
@@ -146,10 +146,10 @@ void Repair::list_changed() {
   changed_.clear();
   for (const auto& copy : patch_.touched()) {
     const auto& corners = patch_.face(copy.index).corners;
-    if (corners[0] != kNone && has_changed(copy)) changed_.insert(changed_.end(), corners.begin(), corners.end());
+    if (corners[0] != tin::kNone && has_changed(copy)) changed_.insert(changed_.end(), corners.begin(), corners.end());
   }
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -31,7 +31,7 @@
 #include "fit/triangle_error.h"
 #include "fit/vertex_step.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// The limits of repair for one vertex.
 struct RepairDepth {
@@ -94,4 +94,4 @@ class Repair {
 /// Measures a triangle again. REQUIRES: it is within the limit.
 void measure(Patch& patch, const TriangleError& error, Patch::Id face);
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -239,4 +239,4 @@ void RingSearch::decode(std::uint64_t code, std::size_t corners, std::vector<Pat
   });
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

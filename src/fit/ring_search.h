@@ -24,7 +24,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class RingSearch {
  public:
@@ -89,4 +89,4 @@ class RingSearch {
   Table<std::uint8_t> middle_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -8,7 +8,7 @@
 #include "fit/relocation.h"
 #include "fit/removal.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -24,14 +24,14 @@ void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
   }
 }
 
-Freedom freedom_of(const Raster& raster, const FitOptions& options) {
+Freedom freedom_of(const grid::Raster& raster, const FitOptions& options) {
   const bool has_room =
-      options.points != nullptr || std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
+      options.points != nullptr || std::max(raster.cols, raster.rows) <= kMaxCoordinate / grid::kLatticeSteps;
   return options.vertices_are_free && options.norm == nullptr && has_room ? Freedom::kLattice : Freedom::kSamples;
 }
 
 /// Limits vertices to the range of the samples.
-void set_range(const Raster& raster, const FitOptions& options, MoveRules& rules) {
+void set_range(const grid::Raster& raster, const FitOptions& options, MoveRules& rules) {
   const ReadWindow& read = options.read;
   if (options.points != nullptr) {
     rules.lowest = options.points->lowest();
@@ -56,7 +56,7 @@ double thin_share(const Patch& patch, const ShapeRule& rule) {
   std::size_t all = 0, thin = 0;
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const auto& [a, b, c] = patch.face(f).corners;
-    if (a == kNone) continue;
+    if (a == tin::kNone) continue;
     ++all;
     if (rule.shape(patch.at(a), patch.at(b), patch.at(c)).form < rule.floor) ++thin;
   }
@@ -65,7 +65,8 @@ double thin_share(const Patch& patch, const ShapeRule& rule) {
 
 }  // namespace
 
-Rounds::Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options)
+Rounds::Rounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+               const FitOptions& options)
     : raster_(raster),
       options_(options),
       rules_{freedom_of(raster, options), options.shape.value_or(ShapeRule{options.min_shape, options.aspect})},
@@ -80,29 +81,30 @@ Rounds::Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, c
 
 bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
   return work_on(grid, end, fitted_.lattice.steps,
-                 [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+                 [&](Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error) {
                    return remove(patch, vertices, error, relocates);
                  });
 }
 
 bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held) {
-  return work_on(
-      grid, end, steps_of_moves(), [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
-        // A single bound, outside the range of energies.
-        if (!error.has_energy()) return FitCounts{};
-        const std::vector<std::uint8_t> wanted = only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
-        RepairOptions here = options;
-        here.wanted = wanted;
-        here.rules = rules_of(patch);
-        const RepairCounts counts = repair_vertices(patch, error, here);
-        return FitCounts{counts.removed, 0, counts.removed, counts.tried};
-      });
+  return work_on(grid, end, steps_of_moves(),
+                 [&](Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error) {
+                   // A single bound, outside the range of energies.
+                   if (!error.has_energy()) return FitCounts{};
+                   const std::vector<std::uint8_t> wanted =
+                       only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
+                   RepairOptions here = options;
+                   here.wanted = wanted;
+                   here.rules = rules_of(patch);
+                   const RepairCounts counts = repair_vertices(patch, error, here);
+                   return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+                 });
 }
 
 bool Rounds::work_twice(const PatchGrid& grid, double end, Prepare prepare, Between between, Job job) {
   const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());
-  std::vector<std::vector<Vertex>> vertices(cutter.count());
+  std::vector<std::vector<tin::Vertex>> vertices(cutter.count());
   const double begin = done_;
   if (!each_patch(cutter.count(), begin, (3 * begin + end) / 4, [&](std::size_t i, std::size_t worker) {
         patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
@@ -136,7 +138,7 @@ Fitted Rounds::finish() {
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter = this->cutter(grid);
   std::vector<Patch> patches(cutter.count());
-  std::vector<std::vector<Vertex>> vertices(cutter.count());
+  std::vector<std::vector<tin::Vertex>> vertices(cutter.count());
   counts_.assign(cutter.count(), {});
   if (!each_patch(cutter.count(), done_, end, [&](std::size_t i, std::size_t worker) {
         patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
@@ -163,18 +165,18 @@ bool Rounds::each_patch(std::size_t count, double begin, double end,
   return goes_on;
 }
 
-void Rounds::join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
+void Rounds::join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<tin::Vertex>> vertices,
                   std::int32_t steps) {
-  std::vector<Vertex> numbers;
-  VertexLattice lattice{steps, {}, {}};
-  Triangulation joined = cutter.join(std::move(patches), std::move(vertices), numbers, lattice);
+  std::vector<tin::Vertex> numbers;
+  grid::VertexLattice lattice{steps, {}, {}};
+  tin::Triangulation joined = cutter.join(std::move(patches), std::move(vertices), numbers, lattice);
   renumber(numbers, joined.vertex_count());
   fitted_.tin = std::move(joined);
   fitted_.lattice = std::move(lattice);
 }
 
 std::int32_t Rounds::steps_of_moves() const {
-  return rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.lattice.steps;
+  return rules_.freedom == Freedom::kLattice ? grid::kLatticeSteps : fitted_.lattice.steps;
 }
 
 bool Rounds::is_worked_on(const Patch& patch) const {
@@ -200,11 +202,11 @@ void Rounds::add(const FitCounts& counts) {
 }
 
 /// A vertex that is free in one patch is in no other, so patches write to separate elements.
-FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error,
+FitCounts Rounds::remove(Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error,
                          bool relocates) {
   std::vector<std::uint8_t> settled;
   settled.reserve(vertices.size());
-  for (const Vertex v : vertices) settled.push_back(settled_[v]);
+  for (const tin::Vertex v : vertices) settled.push_back(settled_[v]);
   ShapeRule shape = rules_.shape;
   if (options_.floor_yields) shape.floor = 0;
   RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
@@ -221,33 +223,33 @@ FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, cons
 }
 
 /// Vertices in more than one patch were on a border.
-void Rounds::hold_borders(const std::vector<std::vector<Vertex>>& vertices) {
+void Rounds::hold_borders(const std::vector<std::vector<tin::Vertex>>& vertices) {
   std::vector<bool> is_seen(held_.size(), false);
-  for (const std::vector<Vertex>& of_patch : vertices) {
-    for (const Vertex v : of_patch) {
+  for (const std::vector<tin::Vertex>& of_patch : vertices) {
+    for (const tin::Vertex v : of_patch) {
       if (is_seen[v]) held_[v] = 1;
       is_seen[v] = true;
     }
   }
 }
 
-std::vector<std::uint8_t> Rounds::near_held(const Patch& patch, const std::vector<Vertex>& vertices) const {
+std::vector<std::uint8_t> Rounds::near_held(const Patch& patch, const std::vector<tin::Vertex>& vertices) const {
   std::vector<std::uint8_t> marks;
   marks.reserve(vertices.size());
-  for (const Vertex v : vertices) marks.push_back(held_[v]);
+  for (const tin::Vertex v : vertices) marks.push_back(held_[v]);
   for (int i = 0; i < kBorderWidth; ++i) spread(patch, marks);
   return marks;
 }
 
 /// New vertices are neither settled nor held.
-void Rounds::renumber(const std::vector<Vertex>& numbers, std::size_t count) {
+void Rounds::renumber(const std::vector<tin::Vertex>& numbers, std::size_t count) {
   for (std::vector<std::uint8_t>* of_vertices : {&settled_, &held_}) {
     std::vector<std::uint8_t> now(count, 0);
-    for (Vertex v = 0; v < of_vertices->size(); ++v) {
-      if (numbers[v] != kNone) now[numbers[v]] = (*of_vertices)[v];
+    for (tin::Vertex v = 0; v < of_vertices->size(); ++v) {
+      if (numbers[v] != tin::kNone) now[numbers[v]] = (*of_vertices)[v];
     }
     *of_vertices = std::move(now);
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

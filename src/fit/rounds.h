@@ -10,12 +10,12 @@
 #include "fit/fit.h"
 #include "fit/schedule.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class Rounds {
  public:
   /// Raster and options must outlive this object.
-  Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
+  Rounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice, const FitOptions& options);
 
   /// A round of removal. `relocates`: each vertex then makes a step, and removal continues. `end`: finished share of
   /// the whole work after the round. This and the other rounds return false if cancelled.
@@ -39,7 +39,7 @@ class Rounds {
   /// Forgets borders of removal, which handles their vertices itself.
   void forget_held() { held_.assign(held_.size(), 0); }
 
-  const Triangulation& tin() const { return fitted_.tin; }
+  const tin::Triangulation& tin() const { return fitted_.tin; }
   /// The rules of moves other than removal, without the floor if the floor yields.
   MoveRules rules_of(const Patch& patch) const;
 
@@ -49,7 +49,8 @@ class Rounds {
   Fitted finish();
 
  private:
-  using Work = FunctionRef<FitCounts(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error)>;
+  using Work =
+      FunctionRef<FitCounts(Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error)>;
   bool work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work);
   bool is_worked_on(const Patch& patch) const;
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
@@ -57,16 +58,16 @@ class Rounds {
   std::int32_t steps_of_moves() const;
   bool each_patch(std::size_t count, double begin, double end,
                   FunctionRef<void(std::size_t i, std::size_t worker)> one);
-  void join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
+  void join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<tin::Vertex>> vertices,
             std::int32_t steps);
   void add(const FitCounts& counts);
   bool tell(double share) const { return !options_.progress || options_.progress(share, vertices()); }
-  FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error, bool relocates);
-  void hold_borders(const std::vector<std::vector<Vertex>>& vertices);
-  std::vector<std::uint8_t> near_held(const Patch& patch, const std::vector<Vertex>& vertices) const;
-  void renumber(const std::vector<Vertex>& numbers, std::size_t count);
+  FitCounts remove(Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error, bool relocates);
+  void hold_borders(const std::vector<std::vector<tin::Vertex>>& vertices);
+  std::vector<std::uint8_t> near_held(const Patch& patch, const std::vector<tin::Vertex>& vertices) const;
+  void renumber(const std::vector<tin::Vertex>& numbers, std::size_t count);
 
-  const Raster& raster_;
+  const grid::Raster& raster_;
   const FitOptions& options_;
   MoveRules rules_;
   Fitted fitted_;
@@ -79,4 +80,4 @@ class Rounds {
   std::vector<FitCounts> counts_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

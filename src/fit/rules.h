@@ -8,7 +8,7 @@
 
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 enum class Freedom : std::uint8_t {
   kSamples,  ///< on valid samples, at their heights
@@ -80,4 +80,4 @@ struct MoveRules {
   float lowest = -std::numeric_limits<float>::infinity(), highest = std::numeric_limits<float>::infinity();
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

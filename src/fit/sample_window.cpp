@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -15,7 +15,7 @@ constexpr std::int64_t kMostPerTriangle = 1024;  // samples that are worth copyi
 /// Floats in a row: an odd number of cache lines.
 std::int32_t stride_of(std::int32_t cols) { return ((cols + 31) & ~31) + 16; }
 
-void copy(const Raster& from, const Patch::Window& window, std::int32_t stride, std::vector<float>& to) {
+void copy(const grid::Raster& from, const Patch::Window& window, std::int32_t stride, std::vector<float>& to) {
   to.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(window.rows));
   for (std::int32_t y = 0; y < window.rows; ++y) {
     const float* const row = from.row(window.first.y + y) + window.first.x;
@@ -26,7 +26,7 @@ void copy(const Raster& from, const Patch::Window& window, std::int32_t stride, 
 /// The range of the bounds of a window's valid samples.
 class BoundRange {
  public:
-  BoundRange(const Raster& raster, const Raster& bounds, const Patch::Window& window) {
+  BoundRange(const grid::Raster& raster, const grid::Raster& bounds, const Patch::Window& window) {
     for (std::int32_t y = window.first.y; y < window.first.y + window.rows; ++y) {
       for (std::int32_t x = window.first.x; x < window.first.x + window.cols; ++x) {
         if (raster.is_valid({x, y})) add(bounds.at({x, y}));
@@ -60,7 +60,7 @@ TriangleError SampleWindow::errors(const ReadWindow& read, const ReadWindow& rea
   const std::int32_t stride = stride_of(window.cols);
   samples_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(window.rows));
   if (window.rows > 0) read(window, samples_.data(), stride);
-  const Raster samples{samples_.data(), stride, window.rows};
+  const grid::Raster samples{samples_.data(), stride, window.rows};
   if (!read_bounds) return TriangleError(samples, Point{0, 0}, threshold);
   bounds_.resize(samples_.size());
   if (window.rows > 0) read_bounds(window, bounds_.data(), stride);
@@ -73,7 +73,7 @@ TriangleError SampleWindow::errors(const ScatteredSamples& points, const Patch& 
   return TriangleError(points.over(patch.window(), threshold, scattered_));
 }
 
-TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm,
+TriangleError SampleWindow::errors(const grid::Raster& raster, std::span<const float> bounds, const FitNorm* norm,
                                    const Patch& patch, double threshold) {
   const Patch::Window& window = patch.window();
   const std::int32_t stride = stride_of(window.cols);
@@ -84,11 +84,11 @@ TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> 
     copy({values, raster.cols, raster.rows}, window, stride, buffer);
     return static_cast<const float*>(buffer.data());
   };
-  Raster samples = raster;
+  grid::Raster samples = raster;
   samples.samples = beside(raster.samples, samples_);
   if (is_copied) samples = {samples.samples, stride, window.rows};
   const Point first = is_copied ? Point{0, 0} : window.first;
-  const Raster all{bounds.data(), raster.cols, raster.rows};
+  const grid::Raster all{bounds.data(), raster.cols, raster.rows};
   std::optional<BoundRange> range;
   if (!bounds.empty()) range.emplace(raster, all, window);
   const bool is_one = !range || range->is_one();
@@ -109,4 +109,4 @@ TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> 
   return TriangleError(*norm_);
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -16,7 +16,7 @@
 #include "fit/triangle_error.h"
 #include "grid/raster.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// Copies samples that are not in memory, `stride` floats per row.
 using ReadWindow = std::function<void(const Patch::Window& window, float* to, std::ptrdiff_t stride)>;
@@ -28,8 +28,8 @@ class SampleWindow {
   /// window and the raster must stay alive and unchanged while the errors are used. `bounds`: bounds of the raster's
   /// samples, or empty; if all in the window are equal, they replace the threshold. `norm`: combines several fields;
   /// null: errors of heights only.
-  TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
-                       double threshold);
+  TriangleError errors(const grid::Raster& raster, std::span<const float> bounds, const FitNorm* norm,
+                       const Patch& patch, double threshold);
   /// The errors of heights only. `read` supplies the samples, and `read_bounds`, if not empty, their bounds.
   TriangleError errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch, double threshold);
   /// The errors at scattered samples.
@@ -42,4 +42,4 @@ class SampleWindow {
   std::unique_ptr<ScatteredErrors> scattered_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

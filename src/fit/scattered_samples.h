@@ -9,7 +9,7 @@
 #include "fit/patch.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// The errors of trial triangles at the samples under a patch.
 class ScatteredErrors {
@@ -55,4 +55,4 @@ class ScatteredSamples {
   float lowest_, highest_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -7,7 +7,7 @@
 #include "fit/removal_queue.h"
 #include "fit/vertex_step.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -33,7 +33,7 @@ Schedule::Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power po
 
 void Schedule::measure_all() {
   for (Id f = 0; f < patch_.face_count(); ++f) {
-    if (patch_.face(f).corners[0] != kNone) measure(patch_, strict_, f);
+    if (patch_.face(f).corners[0] != tin::kNone) measure(patch_, strict_, f);
   }
 }
 
@@ -72,13 +72,13 @@ void Schedule::sweep() {
   VertexStep step(patch_, options_.rules);
   for (Id f = 0; f < patch_.face_count(); ++f) {
     const auto& [a, b, c] = patch_.face(f).corners;
-    if (a == kNone || !(is_wanted(a) || is_wanted(b) || is_wanted(c))) continue;
+    if (a == tin::kNone || !(is_wanted(a) || is_wanted(b) || is_wanted(c))) continue;
     for (unsigned edge = 0; edge < 3; ++edge) {
       if (flips.improve(strict_, f, edge)) unsettle_flipped(f);
     }
   }
   for (Id f = 0; f < patch_.face_count(); ++f) {
-    for (unsigned edge = 0; edge < 3 && patch_.face(f).corners[0] != kNone; ++edge) {
+    for (unsigned edge = 0; edge < 3 && patch_.face(f).corners[0] != tin::kNone; ++edge) {
       if (flips.heal(strict_, f, edge)) unsettle_flipped(f);
     }
   }
@@ -129,8 +129,8 @@ RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const Rep
 
 std::size_t count_faces(const Patch& patch) {
   std::size_t count = 0;
-  for (Id f = 0; f < patch.face_count(); ++f) count += patch.face(f).corners[0] != kNone ? 1 : 0;
+  for (Id f = 0; f < patch.face_count(); ++f) count += patch.face(f).corners[0] != tin::kNone ? 1 : 0;
   return count;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -21,7 +21,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct RepairOptions {
   RepairDepth depth = {};
@@ -78,4 +78,4 @@ class Schedule {
 
 std::size_t count_faces(const Patch& patch);
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -9,7 +9,7 @@
 #include "fit/rounds.h"
 #include "fit/schedule.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -28,14 +28,15 @@ constexpr int kCorrections = 4;
 double energy_of(const Patch& patch) {
   double sum = 0;
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
-    if (patch.face(f).corners[0] != kNone) sum += double{patch.face(f).energy};
+    if (patch.face(f).corners[0] != tin::kNone) sum += double{patch.face(f).energy};
   }
   return sum;
 }
 
 class SquareRounds {
  public:
-  SquareRounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options)
+  SquareRounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+               const FitOptions& options)
       : raster_(raster), options_(options), rounds_(raster, std::move(tin), std::move(lattice), options) {
     repair_ = rounds_.repair_options(0, 0);
     repair_.depth = {0, 1.5, false};
@@ -220,9 +221,9 @@ class SquareRounds {
   }
 
   std::size_t count_triangles() const {
-    const Triangulation& tin = rounds_.tin();
+    const tin::Triangulation& tin = rounds_.tin();
     std::size_t count = 0;
-    for (Triangle t = 0; t < tin.triangle_count(); ++t) count += tin.is_outside(t) ? 0 : 1;
+    for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) count += tin.is_outside(t) ? 0 : 1;
     return count;
   }
 
@@ -239,7 +240,7 @@ class SquareRounds {
     return std::clamp(static_cast<std::int32_t>(std::max(std::sqrt(area), area / std::min(cols, rows))), 2, most);
   }
 
-  const Raster& raster_;
+  const grid::Raster& raster_;
   const FitOptions& options_;
   Rounds rounds_;
   RepairOptions repair_;
@@ -250,8 +251,9 @@ class SquareRounds {
 
 }  // namespace
 
-Result<Fitted> fit_squares(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options) {
+Result<Fitted> fit_squares(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+                           const FitOptions& options) {
   return SquareRounds(raster, std::move(tin), std::move(lattice), options).run();
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

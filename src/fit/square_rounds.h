@@ -18,7 +18,7 @@
 
 #include "fit/fit.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// Triangles before reduction, relative to the wanted number. On Fuji factors of 1, 2, 4 and 6 lead to an RMSE of 6.86,
 /// 6.4, 6.28 and 6.26.
@@ -26,6 +26,7 @@ inline constexpr double kSquareStart = 4;
 
 /// Like fit(), for options.squares: a mesh within their budget, unless the bound needs more, with a small Σ (error /
 /// bound)². REQUIRES: options.squares.
-Result<Fitted> fit_squares(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
+Result<Fitted> fit_squares(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice,
+                           const FitOptions& options);
 
-}  // namespace scarp
+}  // namespace scarp::fit

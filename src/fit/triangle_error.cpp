@@ -12,9 +12,9 @@
 #include "fit/triangle_sums.h"
 #include "geom/exact_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
-TriangleError::TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule)
+TriangleError::TriangleError(const grid::Raster& raster, Point first, double threshold, const ErrorRule& rule)
     : raster_(raster),
       first_(first),
       threshold_(threshold),
@@ -26,7 +26,7 @@ TriangleError::TriangleError(const Raster& raster, Point first, double threshold
       end_(raster.row(raster.rows)),
       kernels_(&triangle_kernels()) {}
 
-TriangleError::TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule)
+TriangleError::TriangleError(const grid::Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule)
     : TriangleError(raster, first, 1, rule) {
   bounds_ = {bounds.bounds, raster.cols, raster.rows};
   unit_ = bounds.unit;
@@ -40,7 +40,7 @@ TriangleError::TriangleError(const NormError& norm, const ErrorRule& rule)
 }
 
 TriangleError::TriangleError(const ScatteredErrors& points, const ErrorRule& rule)
-    : TriangleError(Raster{}, {}, points.threshold(), rule) {
+    : TriangleError(grid::Raster{}, {}, points.threshold(), rule) {
   points_ = &points;
 }
 
@@ -130,8 +130,8 @@ struct ExactTriangle {
 
 /// By Pick's theorem, true for the smallest triangles with corners on samples.
 bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
-  if (((a.x | a.y | b.x | b.y | c.x | c.y) & (kLatticeSteps - 1)) != 0) return false;
-  return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == kLatticeSteps * kLatticeSteps;
+  if (((a.x | a.y | b.x | b.y | c.x | c.y) & (grid::kLatticeSteps - 1)) != 0) return false;
+  return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == grid::kLatticeSteps * grid::kLatticeSteps;
 }
 
 }  // namespace
@@ -244,12 +244,12 @@ TriangleError::Verdict TriangleError::assess_corners(const std::array<FitCorner,
   Verdict verdict;
   bool keeps = true;
   for (const FitCorner& corner : corners) {
-    const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
+    const Point at{corner.x / grid::kLatticeSteps, corner.y / grid::kLatticeSteps};
     const float sample = height_at(at), error = std::abs(corner.z - sample);
     if (corner.z == sample || std::isnan(error)) continue;
     const double threshold = threshold_at(at);
     if (!std::isinf(threshold) &&
-        exceeds_exactly(outline.corners, outline.heights, {corner.x, corner.y}, sample, threshold)) {
+        geom::exceeds_exactly(outline.corners, outline.heights, {corner.x, corner.y}, sample, threshold)) {
       keeps = false;
       if (limit_ == threshold_ || double{error} > limit_at(at)) {
         verdict.kind = Verdict::Kind::kBreaks;
@@ -277,8 +277,8 @@ bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
       const float sample = height_at({x, y});
       if (std::isnan(sample) || !tally.is_in_doubt(task.error(x, row, sample), {x, y})) continue;
       verdict.witness = {x, y};
-      if (exceeds_exactly(outline.corners, outline.heights, {x * kLatticeSteps, y * kLatticeSteps}, sample,
-                          threshold_at({x, y})))
+      if (geom::exceeds_exactly(outline.corners, outline.heights, {x * grid::kLatticeSteps, y * grid::kLatticeSteps},
+                                sample, threshold_at({x, y})))
         return false;
     }
     return true;
@@ -301,4 +301,4 @@ Point TriangleError::find_worst(const Tally& tally, std::int32_t y, std::int32_t
   return at;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -23,7 +23,7 @@
 #include "grid/raster.h"
 #include "grid/vertex_lattice.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct FitCorner {
   std::int32_t x = 0, y = 0;  ///< in lattice steps from the first sample of the window, 0 … kMaxFitSteps
@@ -65,9 +65,9 @@ struct SampleBounds {
 class TriangleError {
  public:
   /// Errors of the raster's samples. `first`: origin from which corners are counted. REQUIRES: threshold >= 0, finite.
-  TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
+  TriangleError(const grid::Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
   /// The same with bounds, which must outlive this object. Errors are divided by their bounds, so the threshold is 1.
-  TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
+  TriangleError(const grid::Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
   /// Norms over several fields, which must outlive this object. Corners are samples.
   explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
   /// Errors at scattered samples, which must outlive this object and define the meaning of a sample's `Point`.
@@ -139,13 +139,14 @@ class TriangleError {
   bool has_points() const { return points_ != nullptr; }
   /// The sample nearest to a place of the window.
   Point sample_near(const FitCorner& place) const {
-    constexpr std::int32_t kHalf = kLatticeSteps / 2;
+    constexpr std::int32_t kHalf = grid::kLatticeSteps / 2;
     if (points_ != nullptr) return point_near(place);
-    return {(place.x + kHalf) / kLatticeSteps, (place.y + kHalf) / kLatticeSteps};
+    return {(place.x + kHalf) / grid::kLatticeSteps, (place.y + kHalf) / grid::kLatticeSteps};
   }
   /// The place of a sample, with the height of a scattered one.
   FitCorner place_of(Point sample) const {
-    return points_ != nullptr ? point_at(sample) : FitCorner{sample.x * kLatticeSteps, sample.y * kLatticeSteps, 0};
+    return points_ != nullptr ? point_at(sample)
+                              : FitCorner{sample.x * grid::kLatticeSteps, sample.y * grid::kLatticeSteps, 0};
   }
   /// The slopes of scattered samples around a place, in unit() per kLatticeSteps.
   std::array<double, 2> point_slope(const FitCorner& place) const;
@@ -159,7 +160,7 @@ class TriangleError {
   }
   double value_at(std::size_t field, const FitCorner& corner) const {
     if (norm_ == nullptr) return double{corner.z};
-    return norm_value_at(field, {corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+    return norm_value_at(field, {corner.x / grid::kLatticeSteps, corner.y / grid::kLatticeSteps});
   }
 
  private:
@@ -190,8 +191,8 @@ class TriangleError {
   double threshold_at(Point sample) const { return has_bounds() ? double{bound_at(sample)} : threshold_; }
   float in_thresholds(float error, Point sample) const;
 
-  Raster raster_;
-  Raster bounds_;  // parallel to the samples
+  grid::Raster raster_;
+  grid::Raster bounds_;  // parallel to the samples
   Point first_;
   double threshold_, limit_, unit_;
   ErrorRule::Power power_;
@@ -202,4 +203,4 @@ class TriangleError {
   const ScatteredErrors* points_ = nullptr;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -7,7 +7,7 @@
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace trial {
 
@@ -103,4 +103,4 @@ std::span<const TriangleKernels> available_triangle_kernels() {
   return all;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -13,7 +13,7 @@
 
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 struct TriangleTask;
 
@@ -77,4 +77,4 @@ std::span<const TriangleKernels> vector_triangle_kernels();
 /// Corners with less weight at a sample do not affect it.
 inline constexpr float kLeastShare = 1e-5f;
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -22,7 +22,7 @@
 #include "base/wasm_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace scarp::trial::HWY_NAMESPACE {
+namespace scarp::fit::trial::HWY_NAMESPACE {
 
 #if SCARP_HAVE_FLOAT64 && !HWY_HAVE_SCALABLE
 
@@ -379,12 +379,12 @@ const TriangleKernels& kernels() {
 
 #endif
 
-}  // namespace scarp::trial::HWY_NAMESPACE
+}  // namespace scarp::fit::trial::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace scarp::trial {
+namespace scarp::fit::trial {
 
 std::span<const TriangleKernels> vector_triangle_kernels() {
   static const std::vector<TriangleKernels> found = [] {
@@ -398,6 +398,6 @@ std::span<const TriangleKernels> vector_triangle_kernels() {
   return found;
 }
 
-}  // namespace scarp::trial
+}  // namespace scarp::fit::trial
 
 #endif

@@ -5,7 +5,7 @@
 #include "fit/triangle_scan.h"
 #include "fit/triangle_sums.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 /// Without inlining, repair needs 1.7 % more instructions.
 [[gnu::always_inline]] inline TriangleTask TriangleError::task_of(const FitCorner& a, const FitCorner& b,
@@ -14,8 +14,8 @@ namespace scarp {
 }
 
 CornerWeight TriangleError::weight_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-  constexpr double kStep = 1.0 / kLatticeSteps;
-  const ScanPlane weight = ScanPlane::spanned(
+  constexpr double kStep = 1.0 / grid::kLatticeSteps;
+  const geom::ScanPlane weight = geom::ScanPlane::spanned(
       1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
   return {weight.slope_x, weight.slope_y, per_threshold_};
 }
@@ -94,4 +94,4 @@ void TriangleError::narrow(const FitCorner& a, const FitCorner& b, const FitCorn
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

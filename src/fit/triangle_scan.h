@@ -11,7 +11,7 @@
 #include "fit/triangle_error.h"
 #include "geom/scan_kernels.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 // Rows are scanned eight samples at a time, as two vectors of four, a width that every machine has. The order of the
 // sums is part of the result.
@@ -66,14 +66,14 @@ struct TriangleTask {
   std::array<FitCorner, 3> corners;
   Place top, middle, bottom;
   float base_x, base_y;
-  ScanPlane plane;
+  geom::ScanPlane plane;
   float doubt, certain;  // computed errors up to `doubt` are within the threshold, those above `certain` break it
   float cut;             // computed errors above it break the limit
 
   [[gnu::always_inline]] TriangleTask(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold,
                                       double limit)
       : corners{a, b, c} {
-    constexpr double kStep = 1.0 / kLatticeSteps;
+    constexpr double kStep = 1.0 / grid::kLatticeSteps;
     const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
     // Without branches, since those of swaps are unpredictable. Two of the eight outcomes are impossible.
     constexpr std::array<std::array<std::uint8_t, 3>, 8> kOrders{
@@ -86,10 +86,10 @@ struct TriangleTask {
     bottom = {xs[third], ys[third]};
     base_x = static_cast<float>(pa.x);
     base_y = static_cast<float>(pa.y);
-    plane = ScanPlane::spanned(
+    plane = geom::ScanPlane::spanned(
         a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
         limit);
-    doubt = scan_floor(threshold, plane.guard);
+    doubt = geom::scan_floor(threshold, plane.guard);
     certain = static_cast<float>(threshold + double{plane.guard});
     cut = static_cast<float>(limit + double{plane.guard});
   }
@@ -169,4 +169,4 @@ inline float least_bound(const TriangleTask& task) { return std::max(kLeastBound
 /// Values divided by bounds; 0 where the bounds are too small.
 inline Floats per_bound(Floats values, Floats bounds, Floats least) { return kept(values / bounds, bounds > least); }
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -10,7 +10,7 @@
 #include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 inline float sum_of(Floats low, Floats high) {
   const Floats s = low + high;
@@ -122,4 +122,4 @@ struct RoomLeft {
   }
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

@@ -7,7 +7,7 @@
 
 #include "fit/normal_equations.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 namespace {
 
@@ -32,14 +32,14 @@ constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, 
 constexpr float kShakeCost = 3;
 constexpr double kShakeReach = 0.05;
 
-Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
+Point sample_at(const FitCorner& corner) { return {corner.x / grid::kLatticeSteps, corner.y / grid::kLatticeSteps}; }
 
 /// Bilinear interpolation between samples; NaN next to nodata.
 float terrain_height(const TriangleError& error, const Patch::Window& window, const FitCorner& place) {
   const Point p = sample_at(place);
   const Point q{std::min(p.x + 1, window.cols - 1), std::min(p.y + 1, window.rows - 1)};
-  const float x = static_cast<float>(place.x % kLatticeSteps) / kLatticeSteps;
-  const float y = static_cast<float>(place.y % kLatticeSteps) / kLatticeSteps;
+  const float x = static_cast<float>(place.x % grid::kLatticeSteps) / grid::kLatticeSteps;
+  const float y = static_cast<float>(place.y % grid::kLatticeSteps) / grid::kLatticeSteps;
   const float above = error.height_at(p) * (1 - x) + error.height_at({q.x, p.y}) * x;
   const float below = error.height_at({p.x, q.y}) * (1 - x) + error.height_at(q) * x;
   return above * (1 - y) + below * y;
@@ -122,13 +122,13 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
   const float limit = energy() * (1 - kStepGain);
   const FitCorner from = patch_.at(v);
   const Vector step = newton_step(error, from);
-  const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
+  const double length = std::sqrt(step.x * step.x + step.y * step.y) * grid::kLatticeSteps;
   const double edge = mean_edge(from);
   const TriangleShape floor = shape_floor(from);
   Point last{0, 0};
   for (const auto& [times, reach] : lengths_of(error.power(), is_free())) {
     if (!(length > 0 && length < 1e9)) break;
-    const double scale = std::min(times, reach * edge / length) * kLatticeSteps / unit();
+    const double scale = std::min(times, reach * edge / length) * grid::kLatticeSteps / unit();
     Point by{static_cast<std::int32_t>(std::lround(step.x * scale)),
              static_cast<std::int32_t>(std::lround(step.y * scale))};
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
@@ -219,7 +219,7 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   constexpr float kNever = std::numeric_limits<float>::infinity();
   if (!is_free()) {
     if (!error.has_points()) place.z = error.height_at(sample_at(place));
-    return {place, std::abs(place.z) <= kMaxScanHeight ? 0 : kNever};
+    return {place, std::abs(place.z) <= geom::kMaxScanHeight ? 0 : kNever};
   }
   place.z = guess_height(error, from, place);
   const auto raised =
@@ -245,4 +245,4 @@ bool VertexStep::take(const TriangleError& error, Patch::Id v, const Offer& offe
   return true;
 }
 
-}  // namespace scarp
+}  // namespace scarp::fit

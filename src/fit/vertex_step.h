@@ -27,7 +27,7 @@
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
-namespace scarp {
+namespace scarp::fit {
 
 class VertexStep {
  public:
@@ -69,7 +69,7 @@ class VertexStep {
   float energy() const;
   FitCorner shifted(const TriangleError& error, const FitCorner& from, Point by) const;
   float guess_height(const TriangleError& error, const FitCorner& from, const FitCorner& place) const;
-  std::int32_t unit() const { return is_free() ? kFreeStep : kLatticeSteps; }
+  std::int32_t unit() const { return is_free() ? grid::kFreeStep : grid::kLatticeSteps; }
   bool is_free() const { return rules_.freedom == Freedom::kLattice; }
   TriangleShape shape_floor(const FitCorner& from) const;
   bool fits(const FitCorner& place, const TriangleShape& floor) const;
@@ -86,4 +86,4 @@ class VertexStep {
   std::vector<Vector> terrain_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::fit

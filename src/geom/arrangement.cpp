@@ -7,7 +7,7 @@
 #include "geom/courses.h"
 #include "geom/hot_points.h"
 
-namespace scarp {
+namespace scarp::geom {
 namespace {
 
 /// A part of a line in the rectangle.
@@ -174,4 +174,4 @@ Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std:
   return result;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -19,7 +19,7 @@
 
 #include "geom/segments.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// Polylines in one array.
 struct Polylines {
@@ -109,4 +109,4 @@ struct Arrangement {
 /// segments that overlap on one line nor n traversals of one line cost more.
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height);
 
-}  // namespace scarp
+}  // namespace scarp::geom

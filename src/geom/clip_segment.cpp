@@ -3,7 +3,7 @@
 #include "base/int128.h"
 #include "geom/segments.h"
 
-namespace scarp {
+namespace scarp::geom {
 namespace {
 
 /// numerator / denominator, the latter positive; both fit 33 bits.
@@ -55,4 +55,4 @@ bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t heigh
   return clipped.segment.from != clipped.segment.to;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace scarp {
+namespace scarp::geom {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::vector<std::uint32_t> convex_hull(std::span<const Point> points) {
   return hull;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -7,7 +7,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// Indices of the hull's corners, positively oriented, starting at the first point in raster order. Points inside hull
 /// edges are omitted. Fewer than three if all points are collinear. Cost: O(n) plus a sort of the points near the hull.
@@ -15,4 +15,4 @@ namespace scarp {
 /// 1978). REQUIRES: distinct points.
 std::vector<std::uint32_t> convex_hull(std::span<const Point> points);
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -8,7 +8,7 @@
 #include "base/radix_sort.h"
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::geom {
 namespace {
 
 /// A segment on its line, given by the line's primitive direction and its distance from (0, 0) in those units.
@@ -104,4 +104,4 @@ class Merger {
 
 Courses merge_overlaps(std::span<const Segment> segments) { return Merger(segments).merge(); }
 
-}  // namespace scarp
+}  // namespace scarp::geom

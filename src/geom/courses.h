@@ -7,7 +7,7 @@
 
 #include "geom/segments.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// The unions of collinear segments that share more than a point.
 struct Courses {
@@ -19,4 +19,4 @@ struct Courses {
 /// collinear.
 Courses merge_overlaps(std::span<const Segment> segments);
 
-}  // namespace scarp
+}  // namespace scarp::geom

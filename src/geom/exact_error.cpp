@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::geom {
 
 namespace {
 
@@ -67,4 +67,4 @@ bool exceeds_exactly_between(float from, float to, std::int64_t k, std::int64_t 
   return sum_exceeds<4>({n - k, k, -n, n}, {from, to, sample, threshold});
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -5,7 +5,7 @@
 
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// True if the plane through the corners differs from `sample` at p by more than `threshold`, as real numbers.
 /// All values are dyadic rationals: scaled to integers, the barycentric sum
@@ -27,4 +27,4 @@ inline bool exceeds_exactly(const std::array<Point, 3>& corners, const std::arra
 /// for all float32 heights whose magnitudes span less than some 2^90; otherwise true. REQUIRES: 0 < k < n <= 2^30.
 bool exceeds_exactly_between(float from, float to, std::int64_t k, std::int64_t n, float sample, double threshold);
 
-}  // namespace scarp
+}  // namespace scarp::geom

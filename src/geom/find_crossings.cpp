@@ -10,7 +10,7 @@
 #include "base/radix_sort.h"
 #include "geom/segments.h"
 
-namespace scarp {
+namespace scarp::geom {
 namespace {
 
 std::int64_t length(const Segment& s) {
@@ -147,4 +147,4 @@ Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment
   return finder.take();
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::geom {
 namespace {
 
 std::vector<Box> boxes_of(std::span<const Point> points) {
@@ -152,4 +152,4 @@ HotPoints::Passes HotPoints::walk(std::span<const Segment> segments, bool are_ri
   return passes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -9,7 +9,7 @@
 #include "base/box_tree.h"
 #include "geom/segments.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 class HotPoints {
  public:
@@ -52,4 +52,4 @@ class HotPoints {
   BoxTree tree_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::geom

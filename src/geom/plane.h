@@ -13,7 +13,7 @@
 
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 struct Plane {
   Point base;                       ///< first corner in raster order
@@ -67,4 +67,4 @@ inline double bend_of(const Plane& a, const Plane& b) {
   return x * x + y * y + z * z;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -7,7 +7,7 @@
 
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<EdgeCover> cover_edges(std::span<const Point> vertices, std::span<co
   return covers;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

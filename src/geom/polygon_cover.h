@@ -13,7 +13,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// Vertices of an edge, the lower number first.
 using GraphEdge = std::array<std::uint32_t, 2>;
@@ -36,4 +36,4 @@ struct EdgeCover {
 std::vector<EdgeCover> cover_edges(std::span<const Point> vertices, std::span<const GraphEdge> edges,
                                    std::vector<PolygonEdge> passes);
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -10,7 +10,7 @@
 #include "base/int128.h"
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 inline constexpr std::int32_t kMaxInCircle64 = 29609;
 
@@ -40,4 +40,4 @@ inline int in_circle(Point a, Point b, Point c, Point d) {
   return sign_of(detail::in_circle_determinant<Int128>(a, b, c, d));
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -8,7 +8,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 namespace detail {
 
@@ -46,4 +46,4 @@ void scan_samples(std::array<Point, 3> corners, std::int32_t steps, Row&& row) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

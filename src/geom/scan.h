@@ -12,7 +12,7 @@
 
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 namespace detail {
 
@@ -105,4 +105,4 @@ void scan_rows(std::array<Point, 3> corners, Row&& row) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

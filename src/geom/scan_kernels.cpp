@@ -5,7 +5,7 @@
 #include "base/instruction_sets.h"
 #include "geom/scan_kernels_task.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 const ScanKernels& scan_kernels() {
   static const ScanKernels& kernels = choose_kernels(available_kernels());
@@ -17,4 +17,4 @@ std::span<const ScanKernels> available_kernels() {
   return all;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -21,7 +21,7 @@
 #include "geom/scan_plane.h"
 #include "geom/tile_view.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 struct ScanHit {
   float error = 0;   ///< 0: no sample's computed error is above scan_floor(threshold, guard). Then none exceeds the
@@ -69,4 +69,4 @@ const ScanKernels& scan_kernels();
 /// All kernels that run on this machine, best first, the scalar twin last.
 std::span<const ScanKernels> available_kernels();
 
-}  // namespace scarp
+}  // namespace scarp::geom

@@ -18,7 +18,7 @@
 #include "geom/scan_kernels_columns.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace scarp::HWY_NAMESPACE {
+namespace scarp::geom::HWY_NAMESPACE {
 
 using detail::BlockColumns;
 using detail::Span;
@@ -148,7 +148,7 @@ HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& tas
   return bounded + scanned * kBlock * kBlock;
 }
 
-}  // namespace scarp::HWY_NAMESPACE
+}  // namespace scarp::geom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

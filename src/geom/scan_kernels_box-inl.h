@@ -18,11 +18,15 @@
 #include "geom/scan_kernels_task.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace scarp::HWY_NAMESPACE {
+namespace scarp::geom::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using detail::ScanBest;
 using detail::ScanTask;
+using scarp::HWY_NAMESPACE::larger_of;
+using scarp::HWY_NAMESPACE::none_of;
+using scarp::HWY_NAMESPACE::smaller_of;
+using scarp::HWY_NAMESPACE::take_larger;
 
 /// The value that a lane's error must exceed to become a candidate. After a hit, equal errors are candidates too.
 HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
@@ -165,7 +169,7 @@ HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const 
   farthest.offer_to(d, start, best);
 }
 
-}  // namespace scarp::HWY_NAMESPACE
+}  // namespace scarp::geom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,6 +1,6 @@
 #include "geom/scan_kernels_columns.h"
 
-namespace scarp::detail {
+namespace scarp::geom::detail {
 
 namespace {
 
@@ -41,4 +41,4 @@ Span BlockColumns::of(std::int32_t block_row) const {
           std::min(task_.right, static_cast<std::int32_t>(right) + 1) / kBlock};
 }
 
-}  // namespace scarp::detail
+}  // namespace scarp::geom::detail

@@ -3,7 +3,7 @@
 
 #include "geom/scan_kernels_task.h"
 
-namespace scarp::detail {
+namespace scarp::geom::detail {
 
 /// Columns or rows from the first to the last; first > last if empty.
 struct Span {
@@ -24,4 +24,4 @@ class BlockColumns {
   std::array<double, 3> slant_;  ///< x per row, along the edge from corner i to the next
 };
 
-}  // namespace scarp::detail
+}  // namespace scarp::geom::detail

@@ -3,7 +3,7 @@
 #include "geom/scan.h"
 #include "geom/scan_kernels_task.h"
 
-namespace scarp::detail {
+namespace scarp::geom::detail {
 
 namespace {
 
@@ -68,4 +68,4 @@ const ScanKernels& scalar_scan_kernels() {
   return kernels;
 }
 
-}  // namespace scarp::detail
+}  // namespace scarp::geom::detail

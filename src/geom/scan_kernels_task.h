@@ -9,7 +9,7 @@
 
 #include "geom/scan_kernels.h"
 
-namespace scarp::detail {
+namespace scarp::geom::detail {
 
 /// The farthest sample so far; it is a hit if its error is above the floor.
 struct ScanBest {
@@ -74,4 +74,4 @@ const ScanKernels& scalar_scan_kernels();
 /// The vector kernels of this machine, best first.
 std::span<const ScanKernels> vector_scan_kernels();
 
-}  // namespace scarp::detail
+}  // namespace scarp::geom::detail

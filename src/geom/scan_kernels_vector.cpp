@@ -23,7 +23,7 @@
 #include "geom/scan_kernels_box-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace scarp::HWY_NAMESPACE {
+namespace scarp::geom::HWY_NAMESPACE {
 
 /// Boxes up to this many samples are scanned whole, larger ones by blocks.
 constexpr std::int32_t kMaxBoxArea = 4096;
@@ -142,12 +142,12 @@ const ScanKernels& kernels() {
   return table;
 }
 
-}  // namespace scarp::HWY_NAMESPACE
+}  // namespace scarp::geom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace scarp::detail {
+namespace scarp::geom::detail {
 
 namespace {
 
@@ -170,6 +170,6 @@ std::span<const ScanKernels> vector_scan_kernels() {
   return found;
 }
 
-}  // namespace scarp::detail
+}  // namespace scarp::geom::detail
 
 #endif

@@ -9,7 +9,7 @@
 #include "base/point.h"
 #include "geom/tile_view.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// Larger heights use the slow path, since their products would overflow.
 inline constexpr float kMaxScanHeight = 0x1p96f;
@@ -71,4 +71,4 @@ struct ScanPlane {
   return plane;
 }
 
-}  // namespace scarp
+}  // namespace scarp::geom

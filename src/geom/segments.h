@@ -8,7 +8,7 @@
 #include "base/function_ref.h"
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 struct Segment {
   Point from, to;
@@ -43,4 +43,4 @@ struct Crossings {
 /// meet; segments are divided into pieces of their mean length.
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
 
-}  // namespace scarp
+}  // namespace scarp::geom

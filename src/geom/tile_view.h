@@ -8,7 +8,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::geom {
 
 /// column | row << 16, relative to the tile's first sample.
 using TilePoint = std::uint32_t;
@@ -44,4 +44,4 @@ struct TileView {
   float at(TilePoint p) const { return row(tile_y(p))[tile_x(p)]; }
 };
 
-}  // namespace scarp
+}  // namespace scarp::geom

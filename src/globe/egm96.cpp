@@ -16,8 +16,8 @@ constexpr double kGeoidCell = 0.25;
 class PackedBits {
  public:
   unsigned next() {
-    if (at_ / 64 >= kPackedEgm96Words) return 0;
-    const unsigned bit = static_cast<unsigned>(kPackedEgm96[at_ / 64] >> (63 - at_ % 64)) & 1;
+    if (at_ / 64 >= globe::kPackedEgm96Words) return 0;
+    const unsigned bit = static_cast<unsigned>(globe::kPackedEgm96[at_ / 64] >> (63 - at_ % 64)) & 1;
     ++at_;
     return bit;
   }

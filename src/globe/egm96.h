@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace scarp {
+namespace scarp::globe {
 
 extern const std::uint64_t kPackedEgm96[];
 extern const std::size_t kPackedEgm96Words;
 
-}  // namespace scarp
+}  // namespace scarp::globe

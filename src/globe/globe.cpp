@@ -6,7 +6,7 @@
 
 #include "globe/sine.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 double dot(const Space& a, const Space& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Space scaled(const Space& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
@@ -106,4 +106,4 @@ Space decode_octahedral(const std::array<std::uint8_t, 2>& normal) {
   return normalized({x, y, z});
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

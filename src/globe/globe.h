@@ -7,7 +7,7 @@
 
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 using Space = std::array<double, 3>;
 
@@ -53,4 +53,4 @@ Space sum(const Space& a, const Space& b);
 /// The unit vector along `a`; {0, 0, 1} for a null vector.
 Space normalized(const Space& a);
 
-}  // namespace scarp
+}  // namespace scarp::globe

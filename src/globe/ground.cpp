@@ -2,7 +2,7 @@
 
 #include "globe/sine.h"
 
-namespace scarp {
+namespace scarp::globe {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
@@ -35,4 +35,4 @@ Space Ground::horizon_point(const Space& centre, std::span<const Space> points) 
   return grid_.is_flat() ? Space{0, 0, 0} : globe_.horizon_point(centre, points);
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

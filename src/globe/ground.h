@@ -5,7 +5,7 @@
 #include "scarp/height_field.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 class Ground {
  public:
@@ -32,4 +32,4 @@ class Ground {
   Globe globe_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::globe

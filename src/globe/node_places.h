@@ -6,7 +6,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 /// Division, rounded down. REQUIRES: by > 0.
 inline std::int64_t floor_of(std::int64_t value, std::int64_t by) {
@@ -37,4 +37,4 @@ class NodePlaces {
   NodeWindow lattice_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::globe

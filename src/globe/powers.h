@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace scarp {
+namespace scarp::globe {
 
 /// The largest power of two up to `value`. REQUIRES: value > 0.
 inline double power_of_two_below(double value) { return std::ldexp(1.0, std::ilogb(value)); }
@@ -13,4 +13,4 @@ inline double power_of_two_above(double value) {
   return below < value ? 2 * below : below;
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

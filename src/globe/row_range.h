@@ -8,7 +8,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 /// Begin and end of the points in the box, among `count` points at equal steps. Because of rounding, points that are
 /// outside by less than 1/100,000,000 of the box count as inside.
@@ -33,4 +33,4 @@ inline std::pair<std::size_t, std::size_t> range_within(double x, double step_x,
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1};
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace scarp {
+namespace scarp::globe {
 
 struct SineCosine {
   double sine = 0, cosine = 1;
@@ -32,4 +32,4 @@ inline SineCosine sine_of_degrees(double degrees) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

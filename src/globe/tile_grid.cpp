@@ -112,7 +112,7 @@ double TileGrid::latitude(std::int64_t row, std::int64_t last_row) const {
 }
 
 double TileGrid::row_step(double latitude) const {
-  return kind == GridKind::kMercator ? sine_of_degrees(latitude).cosine : 1;
+  return kind == GridKind::kMercator ? globe::sine_of_degrees(latitude).cosine : 1;
 }
 
 DegreeBox TileGrid::bounds() const {

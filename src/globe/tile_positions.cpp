@@ -1,6 +1,6 @@
 #include "globe/tile_positions.h"
 
-namespace scarp {
+namespace scarp::globe {
 namespace {
 
 struct Degrees {
@@ -23,4 +23,4 @@ std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& g
   return positions;
 }
 
-}  // namespace scarp
+}  // namespace scarp::globe

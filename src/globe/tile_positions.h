@@ -6,8 +6,8 @@
 #include "globe/ground.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::globe {
 
 std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Ground& ground);
 
-}  // namespace scarp
+}  // namespace scarp::globe

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::grid {
 
 /// A position, or a difference of positions, in samples, not rounded.
 struct SamplePosition {
@@ -34,4 +34,4 @@ class MapToSamples {
   double determinant_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -7,7 +7,7 @@
 #include "grid/source_failure.h"
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -103,4 +103,4 @@ Result<float*> RowReader::read(std::int32_t row) {
   return band_.row(row);
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

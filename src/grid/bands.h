@@ -14,7 +14,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The rows of samples, or of another value per sample, that are currently in memory. For one thread.
 class Band {
@@ -121,4 +121,4 @@ class RowReader {
   Band band_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

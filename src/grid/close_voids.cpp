@@ -13,7 +13,7 @@
 
 #include "grid/outline.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -123,4 +123,4 @@ Outline close_voids(const Raster& raster, Outline outline, double tolerance) {
   return outline;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::grid {
 namespace {
 
 using RowRuns = std::span<const SampleRun>;
@@ -67,4 +67,4 @@ ColumnWalk::ColumnWalk(std::span<const ColumnRuns::Run> column, std::int32_t row
   next_ = std::upper_bound(first_, end_, row, [](std::int32_t y, const ColumnRuns::Run& run) { return y < run.end; });
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -8,7 +8,7 @@
 
 #include "grid/sample_runs.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 class ColumnRuns {
  public:
@@ -53,4 +53,4 @@ class ColumnWalk {
   const ColumnRuns::Run *first_, *end_, *next_;  // next_: the first run that does not end above the row
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

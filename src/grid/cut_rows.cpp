@@ -10,7 +10,7 @@
 #include "grid/outline.h"
 #include "grid/vertex_lattice.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -136,4 +136,4 @@ bool CutRows::has_surface(const Raster& raster) const {
   return false;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

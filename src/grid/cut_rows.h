@@ -10,7 +10,7 @@
 #include "grid/raster.h"
 #include "grid/sample_runs.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The side of a cut on which a sample lies.
 enum class CutSide : std::uint8_t { kBeyond, kOnWall, kWithin };
@@ -44,4 +44,4 @@ class CutRows {
   SampleSet cells_;        // cells crossed by the outline, each given by its first sample
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -96,7 +96,7 @@ class Buckets {
 }  // namespace
 
 std::uint64_t drop_spikes(double most, int threads, PointSet& points) {
-  if (points.size() == 0 || !has_finite_places(points)) return 0;
+  if (points.size() == 0 || !grid::has_finite_places(points)) return 0;
   std::vector<std::uint8_t> stays(points.size(), 1);
   for (const PointLine& line : points.lines) {
     for (const std::uint32_t point : line.points) stays[point] = 2;
@@ -108,7 +108,7 @@ std::uint64_t drop_spikes(double most, int threads, PointSet& points) {
     }
   });
   const std::size_t given = points.size();
-  keep_points(points, [&](std::size_t i) { return stays[i] != 0; });
+  grid::keep_points(points, [&](std::size_t i) { return stays[i] != 0; });
   const std::uint64_t dropped = given - points.size();
   points.spikes += dropped;
   return dropped;

@@ -16,7 +16,7 @@ constexpr std::size_t kMostSteps = 8192, kMostStepsOfSeveral = 256;
 
 class EdgeLine {
  public:
-  EdgeLine(std::span<const EdgeField> fields, Norm norm, double tolerance, std::span<const double> tolerances)
+  EdgeLine(std::span<const grid::EdgeField> fields, Norm norm, double tolerance, std::span<const double> tolerances)
       : fields_(fields),
         norm_(norm),
         heights_(fields.front().values),
@@ -104,14 +104,14 @@ class EdgeLine {
 
   bool passes(std::size_t a, std::size_t b) const {
     for (std::size_t i = a + 1; i < b; ++i) {
-      const double error = chord_error(fields_, norm_, static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
-                                       static_cast<std::int32_t>(i));
+      const double error = grid::chord_error(fields_, norm_, static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
+                                             static_cast<std::int32_t>(i));
       if (error > bound(i)) return false;
     }
     return true;
   }
 
-  std::span<const EdgeField> fields_;
+  std::span<const grid::EdgeField> fields_;
   Norm norm_;
   std::span<const float> heights_;
   double tolerance_;
@@ -123,24 +123,25 @@ class EdgeLine {
 
 }  // namespace
 
-double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i) {
+double grid::chord_error(std::span<const grid::EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b,
+                         std::int32_t i) {
   double total = 0;
   for (const auto& [values, scale] : fields) {
-    const double error = std::abs(chord_value(values, a, b, i) - double{values[static_cast<std::size_t>(i)]});
+    const double error = std::abs(grid::chord_value(values, a, b, i) - double{values[static_cast<std::size_t>(i)]});
     total = add_to_norm_of(norm, total, scale * error);
   }
   return total;
 }
 
-std::vector<std::int32_t> simplify_edge(std::span<const EdgeField> fields, Norm norm, double tolerance,
-                                        std::span<const double> tolerances) {
+std::vector<std::int32_t> grid::simplify_edge(std::span<const grid::EdgeField> fields, Norm norm, double tolerance,
+                                              std::span<const double> tolerances) {
   return EdgeLine(fields, norm, tolerance, tolerances).find();
 }
 
 std::vector<std::int32_t> simplify_edge(std::span<const float> heights, double tolerance,
                                         std::span<const double> tolerances) {
-  const EdgeField field{heights};
-  return simplify_edge(std::span(&field, 1), Norm::kMax, tolerance, tolerances);
+  const grid::EdgeField field{heights};
+  return grid::simplify_edge(std::span(&field, 1), Norm::kMax, tolerance, tolerances);
 }
 
 }  // namespace scarp

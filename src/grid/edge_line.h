@@ -8,7 +8,7 @@
 
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The values of one field along an edge. NaN is nodata, but only in the first field.
 struct EdgeField {
@@ -29,4 +29,4 @@ inline double chord_value(std::span<const float> values, std::int32_t a, std::in
 /// The norm of a chord's errors at sample i. The chord connects samples a and b.
 double chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i);
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string describe_far_points(const PointSet& points) {
                      count - 1, near.size());
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -59,7 +59,7 @@ bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps) {
   if (!frame.is_affine()) return false;
   std::array<double, 6> a = frame.affine;
   for (double& term : a) term /= steps;
-  const int reach_col = steps * centre_reach(cols), reach_row = steps * centre_reach(rows);
+  const int reach_col = steps * grid::centre_reach(cols), reach_row = steps * grid::centre_reach(rows);
   // An offset is affine[1]·(col − cols/2) + affine[2]·(row − rows/2), independent of the constant terms.
   const auto all_along = [steps](double term, int size) {
     return multiples_are_float32(term, -steps * (size / 2), steps * (size - 1 - size / 2));

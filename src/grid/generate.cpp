@@ -11,7 +11,7 @@
 
 #include "base/caught.h"
 
-namespace scarp {
+namespace scarp::grid {
 namespace {
 
 constexpr int kMaxSide = 65536;
@@ -258,4 +258,4 @@ Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, st
   return caught(ErrorKind::kInput, fmt::format("make a field of {} x {} samples", cols, rows));
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -11,7 +11,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Letters and formulas are genstm's: nx and ny are the numbers of columns and rows, x and y the sample. Integer
 /// divisions drop the fraction. Heights are truncated to integers (except for kFractal and kSmooth).
@@ -41,6 +41,6 @@ const std::vector<std::string>& field_style_names();
 /// and more). Fails with kUsage unless sides are 2 … 65536 samples and their product is at most 2³⁰.
 Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed = 0);
 
-}  // namespace scarp
+}  // namespace scarp::grid
 
 #pragma GCC visibility pop

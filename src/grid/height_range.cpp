@@ -115,7 +115,7 @@ void HeightRange::add(const HeightRange& part) {
   }
 }
 
-HeightRange range_of(std::span<const float> samples, std::optional<float> nodata) {
+HeightRange grid::range_of(std::span<const float> samples, std::optional<float> nodata) {
   constexpr std::size_t kBlock = 512;
   const float none = nodata.value_or(std::numeric_limits<float>::quiet_NaN());
   HeightRange range;
@@ -146,7 +146,8 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
   return range;
 }
 
-void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid) {
+void grid::add_samples(HeightRange& range, std::span<const float> samples, float least, float most,
+                       std::uint64_t valid) {
   if (valid == 0) return;
   range.min = range.valid == 0 ? least : std::min(range.min, double{least});
   range.max = range.valid == 0 ? most : std::max(range.max, double{most});
@@ -154,7 +155,7 @@ void add_samples(HeightRange& range, std::span<const float> samples, float least
   if (!is_between_ends(range, least, most)) note_ends(range, samples, std::numeric_limits<float>::quiet_NaN());
 }
 
-void set_range(const HeightRange& range, RasterInfo& info) {
+void grid::set_range(const HeightRange& range, RasterInfo& info) {
   info.has_range = true;
   info.valid = range.valid;
   info.min = range.min;
@@ -170,7 +171,7 @@ HeightRange height_range(const HeightField& field, int threads) {
   std::vector<HeightRange> parts((count + kTogether - 1) / kTogether);
   parallel_for(parts.size(), threads, [&](std::size_t i) {
     const std::size_t first = i * kTogether;
-    parts[i] = range_of({field.samples + first, std::min(kTogether, count - first)}, field.nodata);
+    parts[i] = grid::range_of({field.samples + first, std::min(kTogether, count - first)}, field.nodata);
   });
   HeightRange whole;
   for (const HeightRange& part : parts) whole.add(part);

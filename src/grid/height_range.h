@@ -7,7 +7,7 @@
 
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The range of the samples that are finite and not `nodata`.
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
@@ -18,4 +18,4 @@ void add_samples(HeightRange& range, std::span<const float> samples, float least
 /// Sets all range fields of `info`.
 void set_range(const HeightRange& range, RasterInfo& info);
 
-}  // namespace scarp
+}  // namespace scarp::grid

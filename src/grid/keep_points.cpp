@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::grid {
 
 std::vector<std::uint32_t> keep_points(PointSet& points, FunctionRef<bool(std::size_t)> stays) {
   std::vector<std::uint32_t> names(points.size(), 0);
@@ -32,4 +32,4 @@ bool has_finite_places(const PointSet& points) {
   return are_finite(points.x) && are_finite(points.y);
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

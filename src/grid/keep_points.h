@@ -8,7 +8,7 @@
 #include "base/function_ref.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Keeps the points for which stays(number) is true, in their order, and adapts the lines. Returns the new number of
 /// each remaining point, indexed by its old number. REQUIRES: all points of lines stay, and there is no boundary.
@@ -17,4 +17,4 @@ std::vector<std::uint32_t> keep_points(PointSet& points, FunctionRef<bool(std::s
 /// True if all x and y are finite.
 bool has_finite_places(const PointSet& points);
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-namespace scarp {
+namespace scarp::grid {
 namespace {
 
 constexpr std::size_t kMostCrossings = std::size_t{1} << 20;
@@ -83,4 +83,4 @@ void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

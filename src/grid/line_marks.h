@@ -9,7 +9,7 @@
 #include "grid/sample_runs.h"
 #include "scarp/lines.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Marks samples as runs. Memory grows with the length of the lines.
 class LineRuns {
@@ -40,4 +40,4 @@ class LineRuns {
   SampleRuns runs_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

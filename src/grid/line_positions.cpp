@@ -4,7 +4,7 @@
 
 #include "grid/affine_map.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 Result<void> check_line_positions(const std::string& name, std::span<const std::array<double, 3>> points,
                                   const std::array<double, 6>& affine) {
@@ -17,4 +17,4 @@ Result<void> check_line_positions(const std::string& name, std::span<const std::
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

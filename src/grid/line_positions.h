@@ -7,7 +7,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Fails with kInput for a vertex farther away than kFarthestSample (grid/affine_map.h) or without a position. The
 /// message names the line and the position. `affine`: maps samples to the coordinates of the line. REQUIRES: it is
@@ -15,4 +15,4 @@ namespace scarp {
 Result<void> check_line_positions(const std::string& name, std::span<const std::array<double, 3>> points,
                                   const std::array<double, 6>& affine);
 
-}  // namespace scarp
+}  // namespace scarp::grid

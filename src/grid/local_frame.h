@@ -7,7 +7,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 struct Ellipsoid {
   double semi_major = 0;          ///< metres
@@ -48,4 +48,4 @@ Result<Frame> cell_frame(double cell, int cols, int rows);
 /// True if the affine map sends all samples to a line, or any to infinity.
 bool is_degenerate(const std::array<double, 6>& affine);
 
-}  // namespace scarp
+}  // namespace scarp::grid

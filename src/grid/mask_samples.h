@@ -8,7 +8,7 @@
 
 #include "grid/sample_runs.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Sets the samples [begin, end) of a row to nodata (NaN), except those in runs. `runs`: of that row, ascending,
 /// disjoint. `samples`: starts at `begin`.
@@ -24,4 +24,4 @@ inline void mask_beside(std::span<const SampleRun> runs, std::int32_t begin, std
   mask_up_to(end);
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -8,7 +8,7 @@
 
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -199,4 +199,4 @@ Outline trace_outline(const Raster& raster) {
 
 Outline trace_outline(std::span<const SampleRun> runs) { return join_edges(border_edges(runs)); }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -10,7 +10,7 @@
 #include "grid/raster.h"
 #include "grid/sample_runs.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Closed polygons with the domain on their left: outer borders have positive orientation, holes negative. Polygons
 /// never cross. They may touch themselves and each other in single points, which are then vertices of all polygons
@@ -44,4 +44,4 @@ Outline close_voids(const Raster& raster, Outline outline, double tolerance);
 /// typical outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -47,7 +47,7 @@ void permute(const std::vector<Placed>& order, std::vector<T>& values) {
 }  // namespace
 
 void sort_points(PointSet& points) {
-  if (points.size() == 0 || !has_finite_places(points)) return;
+  if (points.size() == 0 || !grid::has_finite_places(points)) return;
   std::vector<Placed> order;
   order.reserve(points.size());
   const Steps x(points.x), y(points.y);

@@ -11,7 +11,7 @@
 #include "base/sort.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 class PointRows {
  public:
@@ -33,4 +33,4 @@ class PointRows {
   std::vector<Point> points_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -7,7 +7,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Borrowed float32 samples, row-major; nodata samples are NaN (there are no infinities).
 struct Raster {
@@ -21,4 +21,4 @@ struct Raster {
   bool is_valid(Point p) const { return !std::isnan(at(p)); }
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -5,7 +5,7 @@
 
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 void SampleRuns::add(const SampleRun& run) {
   if (runs_.size() > merged_ && runs_.back().row == run.row && run.begin <= runs_.back().end &&
@@ -45,4 +45,4 @@ bool SampleSet::has(Point p) const {
   return behind != runs.begin() && p.x < std::prev(behind)->end;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -9,7 +9,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Samples [begin, end) of a row.
 struct SampleRun {
@@ -50,4 +50,4 @@ class SampleSet {
   std::vector<std::size_t> begins_;  // start of each row's runs, and end of the last row's
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 Result<void> check_size(const HeightField& field) {
   if ((field.samples == nullptr && field.source == nullptr) || field.cols < 2 || field.rows < 2)
@@ -73,4 +73,4 @@ Result<Samples> Samples::to_refine(const HeightField& field, int threads) {
   return samples;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

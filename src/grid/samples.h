@@ -7,7 +7,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Fails with kInput if the field is smaller than 2×2 or larger than the lattice, or has neither samples nor a source.
 Result<void> check_size(const HeightField& field);
@@ -28,4 +28,4 @@ class Samples {
   Raster raster_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -13,7 +13,7 @@
 #include "base/sort.h"
 #include "grid/outline.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -156,4 +156,4 @@ Outline simplify_outline(const Raster& raster, const Outline& outline, double to
   return simplified;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

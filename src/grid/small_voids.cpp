@@ -17,7 +17,7 @@
 
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::grid {
 namespace {
 
 /// An 8-connected area of missing samples.
@@ -251,4 +251,4 @@ Result<VoidCount> count_voids(const HeightField& field, int side) {
   return finder.count(side);
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

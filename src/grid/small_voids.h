@@ -9,7 +9,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Fills enclosed voids of at most `side` × `side` samples. Returns the counts. REQUIRES: the samples are in memory as
 /// floats. Cost: O(samples + bounding boxes of the voids).
@@ -25,4 +25,4 @@ std::shared_ptr<const SampleSource> without_small_voids(const HeightField& field
 /// void.
 Result<VoidCount> count_voids(const HeightField& field, int side);
 
-}  // namespace scarp
+}  // namespace scarp::grid

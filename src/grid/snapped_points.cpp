@@ -16,7 +16,7 @@
 #include "base/sort.h"
 #include "grid/far_points.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -318,4 +318,4 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   return result;
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

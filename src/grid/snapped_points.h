@@ -8,7 +8,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The lattice on which points are distinguished: columns count eastwards, rows southwards, as in a raster.
 struct PointLattice {
@@ -62,4 +62,4 @@ std::uint32_t find_point(const SnappedPoints& points, Point at);
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -3,11 +3,11 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Thrown by readers that return only samples; simplify() and measure() return its error.
 struct SourceFailure {
   Error error;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

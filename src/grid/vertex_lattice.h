@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Lattice steps between two samples.
 inline constexpr std::int32_t kLatticeSteps = 256;
@@ -21,4 +21,4 @@ struct VertexLattice {
   bool are_samples() const { return steps == 1; }
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::grid {
 
 Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
                          std::ptrdiff_t stride) {
@@ -20,4 +20,4 @@ Result<void> read_window(const HeightField& field, int col, int row, int cols, i
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

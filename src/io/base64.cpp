@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 int base64_value(std::uint8_t c) {
@@ -47,4 +47,4 @@ bool read_base64(std::span<const std::uint8_t>& letters, std::size_t count, std:
   return true;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

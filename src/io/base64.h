@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 std::string write_base64(std::span<const std::uint8_t> bytes);
 
@@ -14,4 +14,4 @@ std::string write_base64(std::span<const std::uint8_t> bytes);
 /// with the next part. Returns false if letters are missing or invalid.
 bool read_base64(std::span<const std::uint8_t>& letters, std::size_t count, std::vector<std::uint8_t>& bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

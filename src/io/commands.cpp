@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace scarp {
+namespace scarp::io {
 
 std::string file_word(const std::string& file) {
   if (file.empty() || file == "-" || file == "standard input") return "FILE";
@@ -53,4 +53,4 @@ std::string utf8_command(const std::string& encoding, const std::string& file) {
                      new_file(std::filesystem::path(file).extension().string()));
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

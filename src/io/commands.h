@@ -6,7 +6,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// The file's name quoted for a shell; "FILE" for input without a name, such as standard input.
 std::string file_word(const std::string& file);
@@ -27,6 +27,6 @@ std::string skip_command(std::size_t bytes, const std::string& file);
 /// "iconv -f ENCODING -t UTF-8 FILE > NEW.csv".
 std::string utf8_command(const std::string& encoding, const std::string& file);
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

@@ -25,18 +25,19 @@
 namespace scarp {
 namespace {
 
-Result<StagedFile> stage(const FileBytes& file, bool overwrite) {
-  auto staged = StagedFile::begin(file.path, overwrite, false);
+Result<io::StagedFile> stage(const FileBytes& file, bool overwrite) {
+  auto staged = io::StagedFile::begin(file.path, overwrite, false);
   if (!staged || staged->is_direct()) return staged;
   SCARP_RETURN_IF_ERROR(staged->write(file.bytes));
   SCARP_RETURN_IF_ERROR(staged->end());
   return staged;
 }
 
-Result<void> take_names(std::span<StagedFile* const> staged, bool overwrite) {
-  if (std::all_of(staged.begin(), staged.end(), [](const StagedFile* file) { return file->is_direct(); })) return {};
-  const NamingOutputs now;
-  for (StagedFile* file : staged) {
+Result<void> take_names(std::span<io::StagedFile* const> staged, bool overwrite) {
+  if (std::all_of(staged.begin(), staged.end(), [](const io::StagedFile* file) { return file->is_direct(); }))
+    return {};
+  const io::NamingOutputs now;
+  for (io::StagedFile* file : staged) {
     if (file->is_direct()) continue;
     SCARP_RETURN_IF_ERROR(file->take_name(overwrite));
   }
@@ -45,7 +46,7 @@ Result<void> take_names(std::span<StagedFile* const> staged, bool overwrite) {
 
 }  // namespace
 
-std::string reason_of(int error) {
+std::string io::reason_of(int error) {
   switch (error) {
     case ENOSPC:
       return "the disk is full";
@@ -70,9 +71,9 @@ std::string reason_of(int error) {
 }
 
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite) {
-  std::vector<StagedFile> own;
+  std::vector<io::StagedFile> own;
   own.reserve(files.size());
-  std::vector<StagedFile*> staged;
+  std::vector<io::StagedFile*> staged;
   for (const FileBytes& file : files) {
     if (file.raster != nullptr) {
       staged.push_back(&file.raster->impl().staged);
@@ -90,7 +91,7 @@ Result<void> write_files(std::span<const FileBytes> files, bool overwrite) {
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (!staged[k]->is_direct()) continue;
     SCARP_RETURN_IF_ERROR(files[k].raster != nullptr ? staged[k]->copy_to_target()
-                                                     : write_directly(files[k].path, files[k].bytes));
+                                                     : io::write_directly(files[k].path, files[k].bytes));
   }
   return {};
 }
@@ -104,15 +105,15 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
   const auto cannot = [&](const std::string& why) {
     return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", path, why));
   };
-  SCARP_TRY(const auto& name, readable_name(path));
+  SCARP_TRY(const auto& name, io::readable_name(path));
   const int fd = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return cannot(errno == ENOENT ? "there is " + describe_missing(path) : reason_of(errno));
+  if (fd < 0) return cannot(errno == ENOENT ? "there is " + io::describe_missing(path) : io::reason_of(errno));
   struct Closer {
     int fd;
     ~Closer() { ::close(fd); }
   } const closer{fd};
   struct stat info {};
-  if (::fstat(fd, &info) != 0) return cannot(reason_of(errno));
+  if (::fstat(fd, &info) != 0) return cannot(io::reason_of(errno));
   if (S_ISDIR(info.st_mode)) return cannot("it is a folder");
 
   std::vector<std::uint8_t> bytes;
@@ -125,7 +126,7 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
       bytes.resize(room);
       const ssize_t got = ::read(fd, bytes.data() + size, room - size);
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) return cannot(reason_of(errno));
+      if (got < 0) return cannot(io::reason_of(errno));
       if (got == 0) break;
       size += static_cast<std::size_t>(got);
       if (size == room) room *= 2;

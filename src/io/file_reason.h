@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace scarp {
+namespace scarp::io {
 
 /// An errno as the end of a sentence.
 std::string reason_of(int error);
 
-}  // namespace scarp
+}  // namespace scarp::io

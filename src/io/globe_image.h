@@ -15,7 +15,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// A georeferenced image. Several threads may read at once.
 class GlobeImage {
@@ -46,6 +46,6 @@ struct TileTexture {
 /// The colour of the ground for tiles without texture, and for pixels without colour.
 inline constexpr std::array<double, 3> kGroundColor{0.47, 0.42, 0.33};  // linear
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

@@ -13,7 +13,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// `path`: the raster's, for error messages. Without `datum.ellipsoid`, the ellipsoid is that of WGS 84, or that of the
 /// CRS if it belongs to another planet (more than 1 % larger or smaller). Fails with kInput without a georeference or a
@@ -49,6 +49,6 @@ struct Zero {
 /// it is on another globe than `globe` or, on the earth, has heights impossible for a geoid.
 Result<Zero> read_geoid(const Datum& datum, const RasterOnGlobe& globe);
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

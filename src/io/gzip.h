@@ -10,7 +10,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// A gzip file of the bytes, without a time or a name. With one version of zlib, equal bytes give equal files.
 Result<std::vector<std::uint8_t>> compress_gzip(std::span<const std::uint8_t> bytes);
@@ -23,6 +23,6 @@ Result<std::vector<std::uint8_t>> decompress_gzip(std::span<const std::uint8_t> 
 /// True for bytes that begin like a gzip file.
 bool is_gzip(std::span<const std::uint8_t> bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

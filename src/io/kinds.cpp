@@ -11,7 +11,7 @@
 #include "io/mesh/formats.h"
 #include "io/mesh/mesh_file_text.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 enum class Way { kMesh, kLas, kCloud, kCloudOrMesh, kHeadless, kUnpack, kFetch, kDownload, kSaveAsText };
@@ -170,4 +170,4 @@ std::string describe_kind(const std::string& path, std::string_view head, std::u
   return tell("fetch the file again, most likely from another address");
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace scarp {
+namespace scarp::io {
 
 /// The end of an error message for text in UTF-16, with a command that converts it. Empty for other files.
 std::string describe_wide_text(const std::string& path, std::string_view head);
@@ -17,4 +17,4 @@ std::string describe_marked_text(const std::string& path, std::string_view head)
 /// the first bytes or else, if `by_name`, by the extension. Empty if unknown.
 std::string describe_kind(const std::string& path, std::string_view head, std::uint64_t bytes, bool by_name = true);
 
-}  // namespace scarp
+}  // namespace scarp::io

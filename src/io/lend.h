@@ -10,7 +10,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// Samples in memory and their position, equivalent to a raster file.
 struct LentRaster {
@@ -42,6 +42,6 @@ class Lent {
   ~Lent();
 };
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

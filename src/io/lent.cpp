@@ -14,7 +14,7 @@
 #include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using LentThing = std::variant<const LentRaster*, const Mesh*, const PointSet*>;
@@ -132,7 +132,7 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
     field.info.has_georeference = true;
     field.info.cell_x = std::sqrt(gt[1] * gt[1] + gt[4] * gt[4]);
     field.info.cell_y = std::sqrt(gt[2] * gt[2] + gt[5] * gt[5]);
-    if (is_degenerate(gt))
+    if (grid::is_degenerate(gt))
       return fail(ErrorKind::kInput, name + ": its transform maps the samples to a line or to infinity");
     if (!raster.is_geographic && options.crs != "grid" && looks_like_degrees(gt, raster.cols, raster.rows) &&
         !describe_crs(raster.crs)) {
@@ -158,4 +158,4 @@ Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::s
   return field;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

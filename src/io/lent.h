@@ -8,7 +8,7 @@
 #include "io/raster/height_unit.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Null if this thread has lent no raster under the name.
 const LentRaster* find_lent_raster(const std::string& name);
@@ -28,4 +28,4 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
 /// Converts x and y of points in memory as requested by the options. Returns the unit of their vertical CRS.
 Result<HeightUnit> place_lent_points(const ReadPointsOptions& options, PointSet& points);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::size_t fill_heights(std::span<HeightPlace> places, bool is_ring) {
   return distinct.size() - known;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

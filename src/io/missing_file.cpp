@@ -8,7 +8,7 @@
 
 #include "base/alike.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,4 +36,4 @@ std::string describe_missing(const std::string& path) {
   return sentence + ": " + ask_for(alike, folder.empty() ? "" : (folder / "").string());
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace scarp {
+namespace scarp::io {
 
 /// "no such file", plus names in its folder that differ only by the extension or a typo.
 std::string describe_missing(const std::string& path);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -16,7 +16,7 @@ namespace {
 Result<LineSet> read_all(std::span<const std::string> paths, const ReadLinesOptions& options, double unit_in_metres) {
   LineSet all;
   for (const std::string& path : paths) {
-    SCARP_TRY(auto&& set, read_lines_in(path, options, unit_in_metres));
+    SCARP_TRY(auto&& set, io::read_lines_in(path, options, unit_in_metres));
     for (Line& line : set.lines) {
       if (line.polygon != kNoPolygon) line.polygon += all.polygons;
     }
@@ -30,7 +30,7 @@ Result<LineSet> read_all(std::span<const std::string> paths, const ReadLinesOpti
 }  // namespace
 
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options) {
-  return read_lines_in(path, options, 0);
+  return io::read_lines_in(path, options, 0);
 }
 
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options) {
@@ -39,7 +39,7 @@ Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOp
 
 Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options,
                            const RasterInfo& raster) {
-  return read_all(paths, options, metres_in_file(raster));
+  return read_all(paths, options, io::metres_in_file(raster));
 }
 
 Result<void> check_polygons(std::span<const Line> lines, const std::string& user, const std::string& otherwise) {
@@ -50,7 +50,7 @@ Result<void> check_polygons(std::span<const Line> lines, const std::string& user
   return fail(ErrorKind::kInput,
               fmt::format("{} is a {}line, and {} needs polygons{}", open->name, is_closed ? "closed " : "", user,
                           is_closed ? fmt::format(": make polygons of such lines first (ogr2ogr -nlt POLYGON {} FILE)",
-                                                  new_file(".gpkg"))
+                                                  io::new_file(".gpkg"))
                           : otherwise.empty() ? ""
                                               : fmt::format(": {} takes lines", otherwise)));
 }

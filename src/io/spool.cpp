@@ -14,7 +14,7 @@
 
 #include "io/file_reason.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr const char* kStandardInput = "-";
@@ -100,4 +100,4 @@ Result<std::string> readable_name(const std::string& path) {
   return name;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -7,7 +7,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// A name that any number of readers may open for the input `path`. For "-" (standard input) and pipes it names a copy,
 /// made on the first call and kept until the process ends; otherwise it is the path. The copy has no name in any
@@ -18,4 +18,4 @@ Result<std::string> readable_name(const std::string& path);
 /// files, kept until the process ends. Fails with kOutput if there is no space.
 Result<std::string> spool_bytes(std::span<const std::uint8_t> bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -15,7 +15,7 @@
 
 #include "io/file_reason.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 tl::unexpected<Error> fail_writing(const std::string& path, const std::string& why) {
@@ -190,4 +190,4 @@ Result<void> write_directly(const std::string& path, std::span<const std::uint8_
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -10,7 +10,7 @@
 #include "io/temporary_file.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 class StagedFile {
  public:
@@ -40,4 +40,4 @@ class StagedFile {
 /// Writes to a device, a pipe or standard output.
 Result<void> write_directly(const std::string& path, std::span<const std::uint8_t> bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -23,7 +23,7 @@ static_assert(std::atomic<Naming>::is_always_lock_free);
 }  // namespace
 
 /// The first character is set last and cleared first, so that an interrupting handler sees a whole name or none.
-PendingName::PendingName(const std::string& name) {
+io::PendingName::PendingName(const std::string& name) {
   if (name.empty() || name.size() >= kPendingSize) return;
   int place = 0;
   while (place < kPendingOutputs && pending_taken[place].exchange(true)) ++place;
@@ -35,7 +35,7 @@ PendingName::PendingName(const std::string& name) {
   held[0] = name[0];
 }
 
-PendingName::~PendingName() {
+io::PendingName::~PendingName() {
   if (place_ < 0) return;
   pending_names[place_][0] = '\0';
   std::atomic_signal_fence(std::memory_order_seq_cst);
@@ -46,12 +46,12 @@ const char* pending_output(int place) { return place >= 0 && place < kPendingOut
 
 Naming outputs_naming() { return naming; }
 
-NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
-NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
+io::NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
+io::NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
 
 /// Names are random, because processes in two containers that share a folder may have equal process ids. An existing
 /// file belongs to another process and is not touched.
-TemporaryFile::TemporaryFile(const std::string& folder) {
+io::TemporaryFile::TemporaryFile(const std::string& folder) {
   constexpr int kMostTries = 100;
   std::random_device random;
   for (int k = 0; k < kMostTries; ++k) {
@@ -66,12 +66,12 @@ TemporaryFile::TemporaryFile(const std::string& folder) {
   }
 }
 
-TemporaryFile::~TemporaryFile() {
+io::TemporaryFile::~TemporaryFile() {
   close();
   if (is_ours_) ::unlink(name_.c_str());
 }
 
-int TemporaryFile::close() {
+int io::TemporaryFile::close() {
   if (fd_ < 0) return 0;
   return ::close(std::exchange(fd_, -1)) == 0 ? 0 : errno;
 }

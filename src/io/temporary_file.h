@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace scarp {
+namespace scarp::io {
 
 /// While it lives, pending_output() returns the name.
 class PendingName {
@@ -51,4 +51,4 @@ class TemporaryFile {
   bool is_ours_ = false;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -23,7 +23,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 /// Steps of a level's lattice in metres along the three axes: as fine as 16 bits allow in a tile, but at least 1/256 of
 /// the level's max error. On a local grid's plane the axes are east, north and up.
@@ -122,6 +122,6 @@ struct NamedFile {
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
                                       const LayerFacts& facts = {});
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

@@ -14,7 +14,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/mesh_file_text.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEndRecord = 0x06054b50, kEnd64 = 0x06064b50,
@@ -300,4 +300,4 @@ Result<std::vector<std::uint8_t>> ZipReader::extract(std::string_view name) cons
   return unpack_zip_entry(*record, bytes_.subspan(record->offset + header, record->packed));
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 struct ZipEntry {
   std::string name;
@@ -74,4 +74,4 @@ class ZipReader {
   std::vector<ZipRecord> records_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace scarp {
+namespace scarp::jobs {
 
 inline double core_seconds() {
   timespec now{};
@@ -11,4 +11,4 @@ inline double core_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace scarp
+}  // namespace scarp::jobs

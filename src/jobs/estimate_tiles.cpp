@@ -85,14 +85,14 @@ Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& bl
     // Steps of the golden ratio spread the positions in the blocks.
     const double place = std::fmod(0.6180339887498949 * (k + 1), 1);
     const TileId id = tiles[static_cast<std::size_t>(place * static_cast<double>(tiles.size()))];
-    const double start = core_seconds();
+    const double start = jobs::core_seconds();
     SCARP_TRY(const bool is_land, has_heights(plan, id, nodes));
-    const double reading = core_seconds() - start;
+    const double reading = jobs::core_seconds() - start;
     look.reading += reading;
     ++look.looked_at;
     if (!is_land) continue;
     SCARP_TRY(const auto& tile, make_tile(plan, id, nodes, encode));
-    look.making += std::max(0.0, core_seconds() - start - 2 * reading);
+    look.making += std::max(0.0, jobs::core_seconds() - start - 2 * reading);
     look.bytes += static_cast<double>(tile.bytes.size());
     ++look.made;
   }
@@ -116,12 +116,12 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
   estimate.blocks = blocks.size();
   const auto side = static_cast<std::uint64_t>(plan.cells) << (plan.max_zoom() - plan.block_level);
   const double nodes_of_block = static_cast<double>(side) * static_cast<double>(side);
-  const double began = core_seconds();
+  const double began = jobs::core_seconds();
   double tiles = 0, seconds = 0, bytes = 0;
   // Cost of a tile of the current level, and the fraction of tiles with heights.
   double making = 0, size = 0, share = 0, reading = 0;
   for (int z = plan.max_zoom(); z >= plan.block_level && !blocks.empty(); --z) {
-    const double left = kMostSeconds - (core_seconds() - began), next = kTimeOfLarger * making;
+    const double left = kMostSeconds - (jobs::core_seconds() - began), next = kTimeOfLarger * making;
     const double most = std::max(1.0, std::ceil(kMostShare * counts[static_cast<std::size_t>(z)]));
     const int wanted = static_cast<int>(std::clamp<double>(samples / (plan.max_zoom() - z + 1), 1, most));
     const int count = next * wanted < left ? wanted : static_cast<int>(left / next);

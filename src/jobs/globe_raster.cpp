@@ -45,7 +45,7 @@ struct GlobeSource {
 
 Result<void> place_source(GlobeSource& source, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
-  SCARP_TRY(source.globe, place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path));
+  SCARP_TRY(source.globe, io::place_on_globe(raster.info, raster.cols, raster.rows, datum, raster.info.path));
   const auto covered = degrees_covered(raster, source.globe.place.affine, source.globe.to_degrees.get());
   if (!covered) return fail(covered.error().kind, fmt::format("{}: {}", raster.info.path, covered.error().message));
   source.covered = *covered;
@@ -56,7 +56,7 @@ Result<void> place_source(GlobeSource& source, const Datum& datum) {
 
 Result<void> fill_source(GlobeSource& source, int side) {
   HeightField field = source.field.view();
-  source.filled = without_small_voids(field, side);
+  source.filled = grid::without_small_voids(field, side);
   field.samples = nullptr;
   field.source = source.filled.get();
   SCARP_TRY(source.filled_samples, make_node_source(field, source.globe.place));
@@ -67,7 +67,7 @@ Result<void> fill_source(GlobeSource& source, int side) {
 /// Places a source on the plane of a local grid.
 Result<void> lay_source(GlobeSource& source, const std::optional<double>& cell_size, const Datum& datum) {
   const OwnedHeightField& raster = source.field;
-  SCARP_TRY(source.plane, place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum));
+  SCARP_TRY(source.plane, io::place_on_plane(raster.info, raster.cols, raster.rows, cell_size, datum));
   source.globe.vertical = source.plane->vertical;
   source.globe.ellipsoid = source.plane->ellipsoid;
   source.globe.body = source.plane->body;
@@ -88,7 +88,7 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
   SCARP_TRY(source->field, open_height_field(path, options));
   source->field.info.path = mosaic.front();
-  if (!grid) grid = grid_for(source->field.info);
+  if (!grid) grid = io::grid_for(source->field.info);
   SCARP_RETURN_IF_ERROR(grid == GridKind::kLocal ? lay_source(*source, options.cell_size, datum)
                                                  : place_source(*source, datum));
   return source;
@@ -125,7 +125,7 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
           "the heights of {} are above {}, as its CRS says, and not above {}: leave --vertical and "
           "--geoid out, and name in the CRS of each other raster what its heights are above, such as the sea ({})",
           info.path, says, source.globe.vertical,
-          translate_command("-a_srs " + code_of(first.field.info) + "+5773", first.field.info.path)));
+          io::translate_command("-a_srs " + code_of(first.field.info) + "+5773", first.field.info.path)));
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
         fmt::format("--te and --resolution are for one raster or mosaic, and {} is no mosaic with {}: cut each of "
                     "them first ({})",
                     mosaics[1].front(), mosaics[0].front(),
-                    warp_command("-te XMIN YMIN XMAX YMAX -tr WIDTH HEIGHT", mosaics[0].front())));
+                    io::warp_command("-te XMIN YMIN XMAX YMAX -tr WIDTH HEIGHT", mosaics[0].front())));
   auto impl = std::make_unique<Impl>();
   ReadOptions reading = options;
   if (mosaics.size() > 1) reading.void_side = 0;
@@ -167,7 +167,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
                   fmt::format("a local grid has the samples of one raster, and {} is no mosaic with {}: put them "
                               "together first ({}), or take --grid geographic",
                               mosaics[1].front(), mosaics[0].front(),
-                              warp_command(file_word(mosaics[0].front()), mosaics[1].front())));
+                              io::warp_command(io::file_word(mosaics[0].front()), mosaics[1].front())));
     // Later sources have less memory, but always a little for windows of files.
     if (mosaics.size() > 1) memory -= std::min(source->bytes(), memory - std::min(memory, kLeastMemory));
     if (mosaics.size() > 1) {
@@ -192,7 +192,7 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
 const NodeSource& GlobeRaster::nodes() const { return impl_->watered ? *impl_->watered : impl_->land(); }
 
 void GlobeRaster::add_waters(const PyramidPlan& plan) {
-  if (plan.waters) impl_->watered = make_watered_source(impl_->land(), plan.waters, place().zero);
+  if (plan.waters) impl_->watered = tiles::make_watered_source(impl_->land(), plan.waters, place().zero);
 }
 
 std::vector<SourceFacts> GlobeRaster::facts() const {
@@ -276,10 +276,11 @@ Result<void> find_waters(TileJob& job, GlobeRaster& raster) {
                std::max(covered.north, one.north)};
   }
   const std::size_t lines = rivers.lines.size();
-  SCARP_TRY(auto&& waters, find_tile_waters(job.plan, impl.land(), raster.place().zero, covered,
-                                            {std::move(lakes.lines), std::move(rivers.lines), job.waters.percentile}));
+  SCARP_TRY(auto&& waters,
+            tiles::find_tile_waters(job.plan, impl.land(), raster.place().zero, covered,
+                                    {std::move(lakes.lines), std::move(rivers.lines), job.waters.percentile}));
   const auto flat = std::count_if(waters.lakes.begin(), waters.lakes.end(),
-                                  [](const TileLake& lake) { return !std::isnan(lake.level); });
+                                  [](const tiles::TileLake& lake) { return !std::isnan(lake.level); });
   if (!job.waters.lakes.empty() && flat == 0)
     impl.warnings.push_back("--water names no lake in the raster: it changes nothing");
   if (waters.rivers.size() < lines)

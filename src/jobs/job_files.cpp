@@ -75,7 +75,7 @@ void stamp_rasters(TileJob& job, const std::vector<std::string>& paths) {
 Result<void> add_contents(TileJob& job) {
   const auto add = [](FileStamp& file) -> Result<void> {
     if (file.size == 0) return {};
-    SCARP_TRY(const auto& source, ByteSource::open(file.path));
+    SCARP_TRY(const auto& source, io::ByteSource::open(file.path));
     constexpr std::uint64_t kAtOnce = 1 << 22;
     Fnv name;
     for (std::uint64_t at = 0; at < source->size(); at += kAtOnce) {

@@ -12,7 +12,7 @@
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 
-namespace scarp {
+namespace scarp::jobs {
 namespace {
 
 /// Memory of a cached tile in addition to its bytes.
@@ -221,4 +221,4 @@ Result<bool> LiveTileSet::prepare(int threads, const std::function<bool()>& is_o
   return !prepared.is_full();
 }
 
-}  // namespace scarp
+}  // namespace scarp::jobs

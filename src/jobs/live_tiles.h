@@ -16,7 +16,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::jobs {
 
 struct LiveTile {
   std::vector<std::uint8_t> bytes;
@@ -63,6 +63,6 @@ class LiveTileSet final : public TileSetReader {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::jobs
 
 #pragma GCC visibility pop

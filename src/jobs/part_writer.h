@@ -10,12 +10,16 @@
 
 #include "scarp/tile_job.h"
 
-namespace scarp {
+namespace scarp::jobs {
 
 struct PackedTile {
   TileId id;
   std::vector<std::uint8_t> bytes;
 };
+
+}  // namespace scarp::jobs
+
+namespace scarp {
 
 class PartWriter {
  public:
@@ -31,7 +35,7 @@ class PartWriter {
   /// True if another process was writing to a part of the share when this writer was created.
   bool has_company() const { return has_company_; }
   /// The block is on disk when this returns. Fails with kOutput.
-  Result<void> add(const BlockReport& block, const std::vector<PackedTile>& tiles);
+  Result<void> add(const BlockReport& block, const std::vector<jobs::PackedTile>& tiles);
   /// Records that an existing block is also valid for the job's sources. `nodes`: the hash of its nodes. Fails with
   /// kOutput.
   Result<void> confirm(TileId block, std::uint64_t nodes);

@@ -9,7 +9,7 @@
 
 #include "io/base64.h"
 
-namespace scarp {
+namespace scarp::jobs {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -20,7 +20,7 @@ constexpr double kFarthest = 0x1p40;
 
 template <std::size_t N>
 std::string pack(const std::vector<std::array<double, N>>& points) {
-  return write_base64({reinterpret_cast<const std::uint8_t*>(points.data()), sizeof(points[0]) * points.size()});
+  return io::write_base64({reinterpret_cast<const std::uint8_t*>(points.data()), sizeof(points[0]) * points.size()});
 }
 
 template <std::size_t N>
@@ -29,7 +29,7 @@ std::vector<std::array<double, N>> unpack(const std::string& text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   const std::size_t count = text.size() / 4 * 3;
   std::vector<std::uint8_t> bytes;
-  if (count < padding || !read_base64(letters, count - padding, bytes)) throw std::out_of_range("base64");
+  if (count < padding || !io::read_base64(letters, count - padding, bytes)) throw std::out_of_range("base64");
   std::vector<std::array<double, N>> points(bytes.size() / (N * sizeof(double)));
   if (points.size() * N * sizeof(double) != bytes.size() || points.empty()) throw std::out_of_range("points");
   std::memcpy(points.data(), bytes.data(), bytes.size());
@@ -45,14 +45,14 @@ Json describe_waters(const TileWaters& waters) {
   const DegreeBox& covered = waters.covered;
   Json json{{"covered", {covered.west, covered.south, covered.east, covered.north}}};
   json["lakes"] = Json::array();
-  for (const TileLake& lake : waters.lakes) {
+  for (const tiles::TileLake& lake : waters.lakes) {
     Json rings = Json::array();
     for (const auto& ring : lake.rings) rings.push_back(pack(ring));
     const Json level = std::isnan(lake.level) ? Json(nullptr) : Json(lake.level);
     json["lakes"].push_back({{"name", lake.name}, {"level", level}, {"rings", std::move(rings)}});
   }
   json["rivers"] = Json::array();
-  for (const TileRiver& river : waters.rivers)
+  for (const tiles::TileRiver& river : waters.rivers)
     json["rivers"].push_back({{"name", river.name}, {"course", pack(river.course)}});
   return json;
 }
@@ -62,7 +62,7 @@ TileWaters parse_waters(const Json& json) {
   const Json& covered = json.at("covered");
   waters.covered = {covered.at(0), covered.at(1), covered.at(2), covered.at(3)};
   for (const Json& one : json.at("lakes")) {
-    TileLake lake;
+    tiles::TileLake lake;
     lake.name = one.at("name");
     lake.level = one.at("level").is_null() ? NAN : one.at("level").get<double>();
     for (const Json& ring : one.at("rings")) lake.rings.push_back(unpack<2>(ring));
@@ -72,4 +72,4 @@ TileWaters parse_waters(const Json& json) {
   return waters;
 }
 
-}  // namespace scarp
+}  // namespace scarp::jobs

@@ -25,7 +25,7 @@ class BlockSink final : public TileSink {
     return {};
   }
 
-  std::vector<PackedTile> tiles;
+  std::vector<jobs::PackedTile> tiles;
 
  private:
   TileEncoder encoder_;
@@ -105,16 +105,16 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
       }
     }
     BlockSink sink(encoder);
-    const double start = core_seconds();
+    const double start = jobs::core_seconds();
     SCARP_TRY(auto&& made, make_block(job.plan, block, nodes, sink, part));
-    made.core_seconds = core_seconds() - start;
+    made.core_seconds = jobs::core_seconds() - start;
     made.memory = peak_memory();
     // If a raster changed meanwhile, its block is dropped; earlier blocks are kept.
     SCARP_RETURN_IF_ERROR(check_rasters(job));
     SCARP_RETURN_IF_ERROR(writer->add(made, sink.tiles));
     ++report.blocks;
     report.tiles += sink.tiles.size();
-    for (const PackedTile& tile : sink.tiles) report.bytes += tile.bytes.size();
+    for (const jobs::PackedTile& tile : sink.tiles) report.bytes += tile.bytes.size();
     if (tell) tell(report);
   }
   return report;
@@ -128,7 +128,7 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
   if (missing > 0)
     return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: make what is missing first "
                                                "(scarp tile run PLAN --parts {})",
-                                               missing, blocks.size(), folder, file_word(folder)));
+                                               missing, blocks.size(), folder, io::file_word(folder)));
   SCARP_TRY(auto&& encoder, open_tile_encoder(job));
   const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(encoder));
   std::vector<BlockReport> made;
@@ -147,11 +147,11 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
     for (const LevelSummary& level : one.report.levels) taken.parts += level.bytes;
     made.push_back(std::move(one));
   }
-  const double start = core_seconds();
+  const double start = jobs::core_seconds();
   Run top = run;
   top.progress = part_of(run.progress, kPutting, 1 - kPutting);
   SCARP_TRY(auto&& report, finish_pyramid(job.plan, std::move(made), *sink, top));
-  taken.core_seconds += core_seconds() - start;
+  taken.core_seconds += jobs::core_seconds() - start;
   if (cost != nullptr) *cost = taken;
   SCARP_RETURN_IF_ERROR(sink->put_files(report, job.facts));
   SCARP_RETURN_IF_ERROR(set.finish());

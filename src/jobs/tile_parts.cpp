@@ -107,7 +107,8 @@ Packer pack_head(TileId block, std::uint64_t sources, std::uint64_t nodes) {
   return packer;
 }
 
-std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, const std::vector<PackedTile>& tiles) {
+std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources,
+                               const std::vector<jobs::PackedTile>& tiles) {
   Packer packer = pack_head(block.block, sources, block.hash);
   packer.add(block.core_seconds);
   packer.add(block.memory);
@@ -123,7 +124,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   }
   packer.add_bytes(block.reduced);
   packer.add(std::uint64_t{tiles.size()});
-  for (const PackedTile& tile : tiles) {
+  for (const jobs::PackedTile& tile : tiles) {
     add_id(packer, tile.id);
     packer.add_bytes(tile.bytes);
   }
@@ -140,7 +141,7 @@ bool is_locked(const std::string& path) {
 }
 
 Error cannot_write(const std::string& path, int reason) {
-  return {ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, reason_of(reason))};
+  return {ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, io::reason_of(reason))};
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ struct TileParts::Impl {
     std::uint64_t offset = 0, length = 0, crc = 0;
   };
   struct File {
-    std::unique_ptr<ByteSource> source;
+    std::unique_ptr<io::ByteSource> source;
     std::uint64_t looked_at = 0;  ///< records up to here are known
   };
   using Block = std::tuple<int, std::uint32_t, std::uint32_t>;
@@ -177,7 +178,7 @@ struct TileParts::Impl {
   }
 
   Result<void> look_at(const std::string& name) {
-    SCARP_TRY(auto&& source, ByteSource::open(name));
+    SCARP_TRY(auto&& source, io::ByteSource::open(name));
     const auto [known, is_new] = names.insert({name, files.size()});
     if (is_new) files.emplace_back();
     File& file = files[known->second];
@@ -189,7 +190,7 @@ struct TileParts::Impl {
   /// Ignores a truncated record and all that follow it.
   Result<void> add(std::size_t number) {
     File& file = files[number];
-    const ByteSource& source = *file.source;
+    const io::ByteSource& source = *file.source;
     if (source.size() < kFileHead) return {};
     if (file.looked_at == 0) {
       SCARP_TRY(const auto& head, source.read(0, kFileHead));
@@ -264,7 +265,7 @@ Result<BlockReport> TileParts::read(
     TileId block, const std::function<Result<void>(TileId, std::span<const std::uint8_t>)>& put) const {
   const Impl::Place* const place = impl_->find(block);
   if (place == nullptr) return fail(ErrorKind::kInput, "a block is not there");
-  const ByteSource& source = *impl_->files[place->file].source;
+  const io::ByteSource& source = *impl_->files[place->file].source;
   SCARP_TRY(const auto& bytes, source.read(place->offset, place->length));
   const auto is_damaged = [&] {
     return fail(
@@ -343,7 +344,7 @@ Result<std::unique_ptr<PartWriter>> PartWriter::create(const std::string& folder
   }
 }
 
-Result<void> PartWriter::add(const BlockReport& block, const std::vector<PackedTile>& tiles) {
+Result<void> PartWriter::add(const BlockReport& block, const std::vector<jobs::PackedTile>& tiles) {
   return add_record(pack(block, sources_, tiles));
 }
 

@@ -23,6 +23,8 @@
 namespace scarp {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr int kPlanVersion = 1;
 /// Range of longitudes of lines.
 constexpr double kMostDegrees = 720;
@@ -102,12 +104,12 @@ Json describe_plan(const PyramidPlan& plan) {
             {"background", plan.background},
             {"has_siblings", plan.has_siblings},
             {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
-            {"grid", describe_grid(plan.grid)},
+            {"grid", io::describe_grid(plan.grid)},
             {"covered", describe_box(plan.covered)},
             {"sources", std::move(sources)},
             {"levels", std::move(levels)}};
   if (plan.has_water_mask) json["has_water_mask"] = true;
-  if (plan.waters) json["waters"] = describe_waters(*plan.waters);
+  if (plan.waters) json["waters"] = jobs::describe_waters(*plan.waters);
   if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
   if (plan.binds_samples) json["binds_samples"] = true;
   if (plan.lines) json["lines"] = plan.lines->lines();
@@ -204,7 +206,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.binds_samples = json.value("binds_samples", false);
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
-  plan.grid = parse_grid(json.at("grid")).value();
+  plan.grid = io::parse_grid(json.at("grid")).value();
   plan.covered = parse_box(json.at("covered"));
   for (const Json& source : json.at("sources"))
     plan.sources.push_back({parse_box(source.at("covered")), source.at("max_zoom")});
@@ -213,7 +215,7 @@ PyramidPlan parse_plan(const Json& json) {
         {level.at("geometric_error"), level.at("max_error"), level.at("quantum"), level.at("segments")});
   plan.has_water_mask = json.value("has_water_mask", false);
   if (json.contains("waters")) {
-    TileWaters waters = parse_waters(json["waters"]);
+    TileWaters waters = jobs::parse_waters(json["waters"]);
     waters.grid = plan.grid;
     waters.per_turn = plan.grid.per_turn(plan.max_zoom(), plan.cells);
     plan.waters = std::make_shared<const TileWaters>(std::move(waters));
@@ -365,11 +367,11 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
   }
   return fail(ErrorKind::kInput,
               fmt::format("{} is no plan of tiles of this version: make one first (scarp tile plan RASTER {})",
-                          name_for_errors, new_file(".json")));
+                          name_for_errors, io::new_file(".json")));
 }
 
 Result<TileJob> read_tile_job(const std::string& path) {
-  SCARP_TRY(const auto& source, ByteSource::open(path));
+  SCARP_TRY(const auto& source, io::ByteSource::open(path));
   SCARP_TRY(const auto& bytes, source->read(0, source->size()));
   return decode_tile_job(bytes, path);
 }
@@ -398,7 +400,7 @@ std::uint64_t sources_key_of(const TileJob& job) {
   files.insert(files.end(), job.files.begin(), job.files.end());
   if (job.datum.vertical == Vertical::kGeoid) files.push_back(job.geoid);
   Json stamps = describe_contents(files);
-  if (job.plan.waters) stamps.push_back(hash_of(describe_waters(*job.plan.waters)));
+  if (job.plan.waters) stamps.push_back(hash_of(jobs::describe_waters(*job.plan.waters)));
   return hash_of(stamps);
 }
 

@@ -17,12 +17,13 @@ namespace scarp {
 namespace {
 
 /// The encoder for kGlb, with a texture of the image on each tile.
-TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
+TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const io::GlobeImage> image,
+                                ImageFormat format) {
   return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
-    SCARP_TRY(auto&& texture, make_tile_texture(*image, format, plan, tile.id));
-    TileGlbOptions options;
+    SCARP_TRY(auto&& texture, jobs::make_tile_texture(*image, format, plan, tile.id));
+    io::TileGlbOptions options;
     options.texture = std::move(texture);
-    return encode_tile_glb(place_on_earth(tile, plan), options);
+    return io::encode_tile_glb(io::place_on_earth(tile, plan), options);
   };
 }
 
@@ -32,7 +33,7 @@ class TerrainTilesetSink final : public TileSetSink {
       : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
 
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
-    SCARP_TRY(const TileFacts& facts, read_tile_facts(bytes));
+    SCARP_TRY(const io::TileFacts& facts, io::read_tile_facts(bytes));
     facts_[{id.z, id.y, id.x}] = facts;
     return TileSetSink::put(id, bytes);
   }
@@ -40,34 +41,34 @@ class TerrainTilesetSink final : public TileSetSink {
   /// Writes the files of encode_tileset(). Adds lattice_error() to the bounds.
   Result<void> put_files(PyramidReport& report, LayerFacts facts) override {
     facts.version = version();
-    for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
+    for (const io::NamedFile& file : io::encode_tileset(plan(), report, facts_, facts)) {
       SCARP_RETURN_IF_ERROR(writer().put_file(file.name, file.bytes));
     }
     for (std::size_t z = 0; z < report.levels.size(); ++z)
-      report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
+      report.levels[z].bound += io::lattice_error(plan(), static_cast<int>(z));
     return {};
   }
 
  private:
-  FactsByTile facts_;
+  io::FactsByTile facts_;
 };
 
 }  // namespace
 
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   if (format == TileFormat::kGlb)
-    return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
-  std::shared_ptr<const WaterMasks> masks;
-  if (plan.has_water_mask && plan.waters) masks = std::make_shared<WaterMasks>(*plan.waters);
+    return [&plan](const TerrainTile& tile) { return io::encode_tile_glb(io::place_on_earth(tile, plan)); };
+  std::shared_ptr<const tiles::WaterMasks> masks;
+  if (plan.has_water_mask && plan.waters) masks = std::make_shared<tiles::WaterMasks>(*plan.waters);
   return [&plan, masks](const TerrainTile& tile) {
     const std::vector<std::uint8_t> mask = masks ? masks->draw(tile.id) : std::vector<std::uint8_t>();
-    return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid, mask));
+    return io::compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid, mask));
   };
 }
 
 Result<TileEncoder> open_tile_encoder(const TileJob& job) {
   if (!job.drape) return make_tile_encoder(job.format, job.plan);
-  SCARP_TRY(auto&& image, open_globe_image(job.drape->path(), job.plan.ellipsoid));
+  SCARP_TRY(auto&& image, io::open_globe_image(job.drape->path(), job.plan.ellipsoid));
   return make_draped_encoder(job.plan, std::move(image), job.drape->format);
 }
 

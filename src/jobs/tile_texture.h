@@ -10,14 +10,14 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::jobs {
 
 /// The texture's sides are the smallest 256 · 2^k pixels that reach the image's resolution. The limit is 512 pixels,
 /// the largest side on screen before clients load the tile's children, or 2048 for a tile without children. Nothing if
 /// the image has no colour there. Fails as GlobeImage::read() and encode_image() do.
-Result<std::optional<TileTexture>> make_tile_texture(const GlobeImage& image, ImageFormat format,
-                                                     const PyramidPlan& plan, TileId id);
+Result<std::optional<io::TileTexture>> make_tile_texture(const io::GlobeImage& image, ImageFormat format,
+                                                         const PyramidPlan& plan, TileId id);
 
-}  // namespace scarp
+}  // namespace scarp::jobs
 
 #pragma GCC visibility pop

@@ -11,7 +11,7 @@
 #include "grid/affine_map.h"
 #include "grid/line_positions.h"
 
-namespace scarp {
+namespace scarp::lines {
 namespace {
 
 /// An unrounded vertex, in samples.
@@ -56,11 +56,11 @@ class LatticeLines {
     close();
   }
 
-  const Polylines& parts() const { return parts_; }
+  const geom::Polylines& parts() const { return parts_; }
   std::uint32_t line_of(std::uint32_t part) const { return lines_[part]; }
 
   /// The height of the line at a stop; NaN where it is soft.
-  double height_at(std::uint32_t part, const Arrangement::Stop& stop) const {
+  double height_at(std::uint32_t part, const geom::Arrangement::Stop& stop) const {
     const double* z = &heights_[parts_.begins[part] + stop.segment];
     if (stop.fraction == 0) return z[0];
     if (stop.fraction == 1) return z[1];
@@ -87,13 +87,13 @@ class LatticeLines {
     }
   }
   /// The line's change of height per step at a stop; 0 where it is soft.
-  double climb_at(std::uint32_t part, const Arrangement::Stop& stop) const {
+  double climb_at(std::uint32_t part, const geom::Arrangement::Stop& stop) const {
     return climbs_[parts_.begins[part] + stop.segment];
   }
 
  private:
   static std::int32_t in_steps(double samples) {
-    return static_cast<std::int32_t>(std::floor(samples * kLatticeSteps + 0.5));
+    return static_cast<std::int32_t>(std::floor(samples * grid::kLatticeSteps + 0.5));
   }
   void push(const PathVertex& v) {
     part_.push_back({in_steps(v.col), in_steps(v.row)});
@@ -102,7 +102,7 @@ class LatticeLines {
   }
   /// The change of height per step; 0 for two vertices at one lattice point, whose heights may conflict instead.
   static double climb(const PathVertex& a, const PathVertex& b) {
-    const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
+    const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * grid::kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
     return std::isfinite(climb) ? climb : 0;
   }
@@ -114,7 +114,7 @@ class LatticeLines {
   }
 
   double most_col_, most_row_;
-  Polylines parts_;
+  geom::Polylines parts_;
   std::vector<double> heights_;       ///< heights of the parts' points
   std::vector<double> climbs_;        ///< change per step, from each point to the next
   std::vector<std::uint32_t> lines_;  ///< lines of the parts
@@ -122,9 +122,9 @@ class LatticeLines {
   std::vector<Point> part_;  ///< the part being built
 };
 
-std::vector<Segment> segments_of(const Outline& outline) {
-  std::vector<Segment> rigid;
-  const auto in_steps = [](Point p) { return Point{p.x * kLatticeSteps, p.y * kLatticeSteps}; };
+std::vector<geom::Segment> segments_of(const grid::Outline& outline) {
+  std::vector<geom::Segment> rigid;
+  const auto in_steps = [](Point p) { return Point{p.x * grid::kLatticeSteps, p.y * grid::kLatticeSteps}; };
   for (const auto& polygon : outline) {
     for (std::size_t k = 0; k < polygon.size(); ++k)
       rigid.push_back({in_steps(polygon[k]), in_steps(polygon[(k + 1) % polygon.size()])});
@@ -173,19 +173,19 @@ struct Claims {
 
 /// The change of the raster per step, in the cell of a point.
 double climb_of(const LineSamples& samples, Point point) {
-  const std::int32_t col = std::min(point.x / kLatticeSteps, samples.cols() - 2),
-                     row = std::min(point.y / kLatticeSteps, samples.rows() - 2);
+  const std::int32_t col = std::min(point.x / grid::kLatticeSteps, samples.cols() - 2),
+                     row = std::min(point.y / grid::kLatticeSteps, samples.rows() - 2);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Point p : {Point{col, row}, {col + 1, row}, {col, row + 1}, {col + 1, row + 1}}) {
     if (!samples.is_valid(p)) continue;
     low = std::min(low, double{samples.at(p)});
     high = std::max(high, double{samples.at(p)});
   }
-  return low <= high ? (high - low) / kLatticeSteps : 0;
+  return low <= high ? (high - low) / grid::kLatticeSteps : 0;
 }
 
 /// The claims on each point; empty where no line has heights.
-std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLines& lattice,
+std::vector<Claims> collect_claims(const geom::Arrangement& arranged, const LatticeLines& lattice,
                                    std::span<const Line> lines, const LineSamples& samples) {
   std::vector<Claims> claims;
   if (!lattice.has_heights()) return claims;
@@ -196,7 +196,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
     const std::uint32_t line = lattice.line_of(part);
     // Walls change no sample, even if rounding moves a wall onto one, and conflict with no line.
     const Point p = points[point];
-    const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
+    const bool is_sample = p.x % grid::kLatticeSteps == 0 && p.y % grid::kLatticeSteps == 0;
     if (is_wall(lines[line]) && (is_sample || at.count > 0)) return;
     if (at.count == 0) at.climb = climb_of(samples, p);
     at.add(line, lines[line].yields(), height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
@@ -207,7 +207,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
     for (; chain != arranged.chains.end() && chain->line < end; ++chain) {
       for (const auto& stretch : arranged.stretches_of(*chain)) {
         if (lattice.is_soft(chain->line, stretch.segment)) continue;
-        arranged.visit_stops(stretch, [&](const Arrangement::Stop& stop) {
+        arranged.visit_stops(stretch, [&](const geom::Arrangement::Stop& stop) {
           const double height = lattice.height_at(chain->line, stop);
           if (!std::isnan(height)) claim(stop.vertex, chain->line, height, lattice.climb_at(chain->line, stop));
         });
@@ -231,8 +231,8 @@ Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> l
     placed.heights[point] = static_cast<float>(at.height(conflict));
     placed.is_hard[point] = true;
     if (!at.are_opposed || conflict != LineConflict::kError) continue;
-    const double col = placed.points[point].x / double{kLatticeSteps},
-                 row = placed.points[point].y / double{kLatticeSteps};
+    const double col = placed.points[point].x / double{grid::kLatticeSteps},
+                 row = placed.points[point].y / double{grid::kLatticeSteps};
     return fail(
         ErrorKind::kInput,
         fmt::format("{} has the height {:.9g} and {} has {:.9g} where they meet at {:.9g}, {:.9g}: mend one of "
@@ -246,14 +246,14 @@ Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> l
 
 Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine, std::int32_t cols,
                                 std::int32_t rows) {
-  const MapToSamples to_samples(affine);
+  const grid::MapToSamples to_samples(affine);
   LatticeLines lattice(cols, rows);
   std::vector<PathVertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
-    SCARP_RETURN_IF_ERROR(check_line_positions(lines[k].name, lines[k].points, affine));
+    SCARP_RETURN_IF_ERROR(grid::check_line_positions(lines[k].name, lines[k].points, affine));
     for (const auto& point : lines[k].points) {
-      const SamplePosition at = to_samples.position(point[0], point[1]);
+      const grid::SamplePosition at = to_samples.position(point[0], point[1]);
       vertices.push_back({at.col, at.row, point[2]});
       if (std::abs(point[2]) > double{std::numeric_limits<float>::max()})
         return fail(ErrorKind::kInput,
@@ -270,11 +270,13 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
 bool is_start(const Line& line) { return is_wall(line) || line.kind == LineKind::kRidge; }
 
 /// By edge: true if the outline, or a line that is no start, runs there. Empty without starts.
-std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
+std::vector<bool> held_edges(const geom::Arrangement& arranged, const LatticeLines& lattice,
+                             std::span<const Line> lines) {
   std::vector<bool> is_held;
   if (std::none_of(lines.begin(), lines.end(), is_start)) return is_held;
-  for (const Arrangement::Edge& edge : arranged.edges) is_held.push_back(edge.is_rigid);
-  const auto comes_before = [](const Arrangement::Edge& edge, const std::pair<std::uint32_t, std::uint32_t>& ends) {
+  for (const geom::Arrangement::Edge& edge : arranged.edges) is_held.push_back(edge.is_rigid);
+  const auto comes_before = [](const geom::Arrangement::Edge& edge,
+                               const std::pair<std::uint32_t, std::uint32_t>& ends) {
     return std::pair(edge.a, edge.b) < ends;
   };
   for (const auto& chain : arranged.chains) {
@@ -292,7 +294,7 @@ std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& la
 }
 
 /// Sets the chains; counts lines without one.
-void take_chains(const Arrangement& arranged, const LatticeLines& lattice, Breaklines& placed) {
+void take_chains(const geom::Arrangement& arranged, const LatticeLines& lattice, Breaklines& placed) {
   for (const auto& chain : arranged.chains) {
     const auto begin = static_cast<std::uint32_t>(placed.passed.size());
     for (const auto& stop : arranged.stops_of(chain)) placed.passed.push_back(stop.vertex);
@@ -300,7 +302,7 @@ void take_chains(const Arrangement& arranged, const LatticeLines& lattice, Break
   }
 }
 
-std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines) {
+std::uint64_t count_outside(const geom::Arrangement& arranged, const LatticeLines& lattice, std::size_t lines) {
   std::vector<bool> is_there(lines, false);
   for (const auto& chain : arranged.chains) is_there[lattice.line_of(chain.line)] = true;
   return static_cast<std::uint64_t>(std::count(is_there.begin(), is_there.end(), false));
@@ -308,11 +310,11 @@ std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lat
 
 template <class Heights>
 double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, Point point) {
-  if (point.x % kLatticeSteps == 0 && point.y % kLatticeSteps == 0)
-    return raster.at({point.x / kLatticeSteps, point.y / kLatticeSteps});
-  const std::int32_t col = std::min(point.x / kLatticeSteps, cols - 2),
-                     row = std::min(point.y / kLatticeSteps, rows - 2);
-  const double right = point.x / double{kLatticeSteps} - col, down = point.y / double{kLatticeSteps} - row;
+  if (point.x % grid::kLatticeSteps == 0 && point.y % grid::kLatticeSteps == 0)
+    return raster.at({point.x / grid::kLatticeSteps, point.y / grid::kLatticeSteps});
+  const std::int32_t col = std::min(point.x / grid::kLatticeSteps, cols - 2),
+                     row = std::min(point.y / grid::kLatticeSteps, rows - 2);
+  const double right = point.x / double{grid::kLatticeSteps} - col, down = point.y / double{grid::kLatticeSteps} - row;
   // Around the cell, so that k and k + 2 are opposite.
   const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
   std::array<double, 4> heights{raster.at({col, row}), raster.at({col + 1, row}), raster.at({col + 1, row + 1}),
@@ -339,25 +341,27 @@ double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, 
 
 bool is_inserted_first(const Line& line) { return is_wall(line) || is_ridge_line(line); }
 
-double height_between_samples(const SampleView& heights, Point point) {
+double height_between_samples(const grid::SampleView& heights, Point point) {
   return bilinear_at(heights, heights.cols(), heights.rows(), point);
 }
 
-double surface_at(const LineSamples& samples, SamplePosition position) {
+double surface_at(const LineSamples& samples, grid::SamplePosition position) {
   if (!(position.col >= 0 && position.row >= 0 && position.col <= samples.cols() - 1 &&
         position.row <= samples.rows() - 1))
     return NAN;
   return bilinear_at(samples, samples.cols(), samples.rows(),
-                     {static_cast<std::int32_t>(std::lround(position.col * kLatticeSteps)),
-                      static_cast<std::int32_t>(std::lround(position.row * kLatticeSteps))});
+                     {static_cast<std::int32_t>(std::lround(position.col * grid::kLatticeSteps)),
+                      static_cast<std::int32_t>(std::lround(position.row * grid::kLatticeSteps))});
 }
 
-double surface_at(const Raster& raster, SamplePosition position) { return surface_at(LineSamples(raster), position); }
+double surface_at(const grid::Raster& raster, grid::SamplePosition position) {
+  return surface_at(LineSamples(raster), position);
+}
 
-Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                          std::int32_t cols, std::int32_t rows) {
+Result<std::vector<geom::Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                                std::int32_t cols, std::int32_t rows) {
   SCARP_TRY(const auto& lattice, to_lattice(lines, affine, cols, rows));
-  std::vector<Segment> courses;
+  std::vector<geom::Segment> courses;
   for (std::uint32_t part = 0; part < lattice.parts().size(); ++part) {
     const auto points = lattice.parts()[part];
     for (std::size_t k = 0; k + 1 < points.size(); ++k) courses.push_back({points[k], points[k + 1]});
@@ -366,24 +370,24 @@ Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std
 }
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                    const Raster& raster, const Outline& outline, LineConflict conflict,
+                                    const grid::Raster& raster, const grid::Outline& outline, LineConflict conflict,
                                     bool with_chains) {
   return place_breaklines(lines, affine, LineSamples(raster), segments_of(outline), conflict, with_chains);
 }
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                    const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
-                                    bool with_chains) try {
+                                    const LineSamples& samples, std::span<const geom::Segment> rigid,
+                                    LineConflict conflict, bool with_chains) try {
   const std::int32_t cols = samples.cols(), rows = samples.rows();
-  if (std::max(cols, rows) > kMaxCoordinate / kLatticeSteps)
+  if (std::max(cols, rows) > kMaxCoordinate / grid::kLatticeSteps)
     return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
-                                               cols, rows, kMaxCoordinate / kLatticeSteps));
+                                               cols, rows, kMaxCoordinate / grid::kLatticeSteps));
   SCARP_TRY(const auto& lattice, to_lattice(lines, affine, cols, rows));
-  const std::int32_t width = (cols - 1) * kLatticeSteps, height = (rows - 1) * kLatticeSteps;
-  std::vector<Segment> fixed{
+  const std::int32_t width = (cols - 1) * grid::kLatticeSteps, height = (rows - 1) * grid::kLatticeSteps;
+  std::vector<geom::Segment> fixed{
       {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
   fixed.insert(fixed.end(), rigid.begin(), rigid.end());
-  Arrangement arranged = arrange(lattice.parts(), fixed, width, height);
+  geom::Arrangement arranged = geom::arrange(lattice.parts(), fixed, width, height);
 
   const std::vector<Claims> claims = collect_claims(arranged, lattice, lines, samples);
   Breaklines placed;
@@ -401,4 +405,4 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   return caught(ErrorKind::kInput, "place the lines on the raster");
 }
 
-}  // namespace scarp
+}  // namespace scarp::lines

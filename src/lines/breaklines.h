@@ -20,7 +20,7 @@
 #include "scarp/lines.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 struct Breaklines {
   /// The vertices of the outline, and of the lines within the raster's rectangle. They are in raster order, with
@@ -31,7 +31,7 @@ struct Breaklines {
   /// corners with bilinear weights, or NaN if their weights are 0. On a sample, it is the sample's value.
   std::vector<float> heights;
   std::vector<bool> is_hard;  ///< for each point: lines determine its height
-  std::vector<Arrangement::Edge> edges;
+  std::vector<geom::Arrangement::Edge> edges;
   std::vector<bool> is_held;  ///< for each edge: true if a permanent line or the outline runs there; EMPTY: all
 
   std::uint64_t outside = 0;  ///< lines with no part inside
@@ -67,26 +67,26 @@ bool is_inserted_first(const Line& line);
 /// arrange(), plus a visit to each point of each hard line (with chains: of each line); n overlapping lines need n²/2
 /// visits.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                    const Raster& raster, const Outline& outline,
+                                    const grid::Raster& raster, const grid::Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
 /// The same, but reads only samples near lines. `rigid`: the rigid edges, in kLatticeSteps, except the rectangle's
 /// sides. They must include the outline wherever lines pass near it, and all other edges at which lines are to be
 /// split.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                    const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
-                                    bool with_chains);
+                                    const LineSamples& samples, std::span<const geom::Segment> rigid,
+                                    LineConflict conflict, bool with_chains);
 
 /// The lines clipped to the raster and one sample around it, in kLatticeSteps. Fails with kInput if coordinates are too
 /// large.
-Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                          std::int32_t cols, std::int32_t rows);
+Result<std::vector<geom::Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                                std::int32_t cols, std::int32_t rows);
 
 /// The height of the surface (see Breaklines::heights) at a point within the raster, in kLatticeSteps.
-double height_between_samples(const SampleView& heights, Point point);
+double height_between_samples(const grid::SampleView& heights, Point point);
 
 /// The same at the nearest lattice point; NaN beyond the raster.
-double surface_at(const Raster& raster, SamplePosition position);
-double surface_at(const LineSamples& samples, SamplePosition position);
+double surface_at(const grid::Raster& raster, grid::SamplePosition position);
+double surface_at(const LineSamples& samples, grid::SamplePosition position);
 
-}  // namespace scarp
+}  // namespace scarp::lines

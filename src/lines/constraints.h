@@ -13,7 +13,7 @@
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 /// Vertices, and edges between them. Edges share only end points, and contain no vertex in their interior.
 struct ConstraintGraph {
@@ -34,29 +34,30 @@ class ConstrainedMesh {
   /// their edges. `tin` and the raster must outlive the result; no other code may change them. Fails with kInternal
   /// where an edge crosses a constrained one. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges
   /// cross constrained edges of `tin` only in points of the graph.
-  static Result<ConstrainedMesh> insert(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
+  static Result<ConstrainedMesh> insert(const grid::Raster& raster, tin::Triangulation& tin,
+                                        const ConstraintGraph& graph);
 
   /// False if a cut removes all surface.
   bool has_surface() const { return has_surface_; }
   /// Changed triangles, ascending.
-  const std::vector<Triangle>& changed() const { return changed_; }
+  const std::vector<tin::Triangle>& changed() const { return changed_; }
   /// Releases the edges that are only starts, and the vertices that belong to no other edge of the graph.
-  void release_starts(Triangulation& tin);
+  void release_starts(tin::Triangulation& tin);
 
-  const LatticeHeights& heights() const { return heights_; }
+  const metric::LatticeHeights& heights() const { return heights_; }
   /// The lattice of all current vertices of `tin`: their heights, and the vertices that the graph still fixes.
   /// REQUIRES: on several threads, the samples are a raster, not rows.
-  VertexLattice lattice(int threads = 1) const;
+  grid::VertexLattice lattice(int threads = 1) const;
 
  private:
-  ConstrainedMesh(const Raster& raster, const Triangulation& tin) : tin_(&tin), heights_(raster) {}
+  ConstrainedMesh(const grid::Raster& raster, const tin::Triangulation& tin) : tin_(&tin), heights_(raster) {}
 
-  const Triangulation* tin_;
-  LatticeHeights heights_;
-  std::vector<Vertex> fixed_, starts_;  // starts_: vertices that belong only to starts
-  std::vector<std::array<Vertex, 2>> start_edges_;
-  std::vector<Triangle> changed_;
+  const tin::Triangulation* tin_;
+  metric::LatticeHeights heights_;
+  std::vector<tin::Vertex> fixed_, starts_;  // starts_: vertices that belong only to starts
+  std::vector<std::array<tin::Vertex, 2>> start_edges_;
+  std::vector<tin::Triangle> changed_;
   bool has_surface_ = true;
 };
 
-}  // namespace scarp
+}  // namespace scarp::lines

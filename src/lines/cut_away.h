@@ -11,15 +11,15 @@
 #include "grid/cut_rows.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 struct SurfaceCut {
   /// Edges of a graph, by indices of its points, that separate the remaining side (positive) from the removed side.
   std::vector<std::array<std::uint32_t, 2>> walls;
   /// The border of the remaining part, in kLatticeSteps: the walls, and parts of the raster's rectangle.
   std::vector<std::array<Point, 2>> outline;
-  std::shared_ptr<const CutRows> rows;  ///< rows of the outline of the whole raster
-  std::int32_t first = 0;               ///< index in `rows` of the first row of samples here
+  std::shared_ptr<const grid::CutRows> rows;  ///< rows of the outline of the whole raster
+  std::int32_t first = 0;                     ///< index in `rows` of the first row of samples here
 };
 
 /// The error message if nothing remains.
@@ -29,6 +29,6 @@ inline constexpr const char* kNothingInCutline = "no part of the raster's surfac
 /// the graph, kNone if absent. Returns true if something remains. REQUIRES: walls with both ends in `tin` are chains of
 /// constrained edges; no triangle of the domain has parts on both sides. Cost: O(triangles + walls), plus O(walls) for
 /// each part of the domain that touches walls in points only.
-bool cut_away(Triangulation& tin, const SurfaceCut& cut, std::span<const Vertex> vertices);
+bool cut_away(tin::Triangulation& tin, const SurfaceCut& cut, std::span<const tin::Vertex> vertices);
 
-}  // namespace scarp
+}  // namespace scarp::lines

@@ -57,7 +57,7 @@ class RingClipper {
 
  private:
   RingPoint place(const std::array<double, 3>& point) const {
-    const SamplePosition at = to_samples_.position(point[0], point[1]);
+    const grid::SamplePosition at = to_samples_.position(point[0], point[1]);
     return {{point[0], point[1], std::numeric_limits<double>::quiet_NaN()}, {at.col, at.row}};
   }
 
@@ -83,38 +83,38 @@ class RingClipper {
   }
 
   std::array<double, 6> affine_;
-  MapToSamples to_samples_;
+  grid::MapToSamples to_samples_;
   std::array<double, 2> last_;
   std::vector<RingPoint> points_, clipped_;
 };
 
 class SourceWithin final : public SampleSource {
  public:
-  SourceWithin(std::shared_ptr<const SampleSource> source, std::shared_ptr<const SampleSet> within)
+  SourceWithin(std::shared_ptr<const SampleSource> source, std::shared_ptr<const grid::SampleSet> within)
       : source_(std::move(source)), within_(std::move(within)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     SCARP_RETURN_IF_ERROR(source_->read(col, row, cols, rows, out, stride));
-    for (int y = 0; y < rows; ++y) mask_beside(within_->row(row + y), col, col + cols, out + y * stride);
+    for (int y = 0; y < rows; ++y) grid::mask_beside(within_->row(row + y), col, col + cols, out + y * stride);
     return {};
   }
   bool is_in_memory() const override { return source_->is_in_memory(); }
 
  private:
   std::shared_ptr<const SampleSource> source_;
-  std::shared_ptr<const SampleSet> within_;
+  std::shared_ptr<const grid::SampleSet> within_;
 };
 
 /// Counts heights within runs and outside, row by row from the top.
 class OutsideCount {
  public:
   /// `samples`: the original samples of a row.
-  void add(std::span<const SampleRun> within, std::span<const float> samples) {
+  void add(std::span<const grid::SampleRun> within, std::span<const float> samples) {
     here_.assign(samples.size(), 0);
-    const HeightRange here = range_of(samples);
+    const HeightRange here = grid::range_of(samples);
     range_.add(here);
     std::uint64_t kept = 0;
-    for (const SampleRun& run : within) {
+    for (const grid::SampleRun& run : within) {
       for (auto col = static_cast<std::size_t>(run.begin); col < static_cast<std::size_t>(run.end); ++col)
         kept += here_[col] = std::isnan(samples[col]) ? 0 : 1;
     }
@@ -135,7 +135,7 @@ class OutsideCount {
 
 }  // namespace
 
-std::vector<Line> clip_rings(const Cutline& cutline, std::int32_t cols, std::int32_t rows) {
+std::vector<Line> lines::clip_rings(const Cutline& cutline, std::int32_t cols, std::int32_t rows) {
   RingClipper clipper(cutline.affine, cols, rows);
   std::vector<Line> clipped;
   for (const Line& ring : cutline.rings) {
@@ -165,18 +165,18 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
 
 Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
   for (const Line& ring : cutline.rings) {
-    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, cutline.affine));
+    SCARP_RETURN_IF_ERROR(grid::check_line_positions(ring.name, ring.points, cutline.affine));
   }
-  LineRuns runs(cutline.affine, field.cols, field.rows);
+  grid::LineRuns runs(cutline.affine, field.cols, field.rows);
   runs.add_polygons(cutline.rings);
-  const auto within = std::make_shared<const SampleSet>(runs.runs(), field.rows);
+  const auto within = std::make_shared<const grid::SampleSet>(runs.runs(), field.rows);
   OutsideCount count;
   field.own();
   if (!field.source) {
     for (std::int32_t row = 0; row < field.rows; ++row) {
       float* samples = &field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols)];
       count.add(within->row(row), {samples, static_cast<std::size_t>(field.cols)});
-      mask_beside(within->row(row), 0, field.cols, samples);
+      grid::mask_beside(within->row(row), 0, field.cols, samples);
     }
     return count.result();
   }
@@ -188,10 +188,11 @@ Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutli
     SCARP_RETURN_IF_ERROR(field.source->read(0, row, field.cols, 1, samples.data(), field.cols));
     count.add(within->row(row), samples);
   }
-  if (!field.info.has_range) set_range(count.range(), field.info);
+  if (!field.info.has_range) grid::set_range(count.range(), field.info);
   field.source = std::make_shared<SourceWithin>(std::move(field.source), within);
   MaskedOutside result = count.result();
-  result.bytes = sizeof(SampleRun) * runs.runs().size() + sizeof(std::size_t) * static_cast<std::size_t>(field.rows);
+  result.bytes =
+      sizeof(grid::SampleRun) * runs.runs().size() + sizeof(std::size_t) * static_cast<std::size_t>(field.rows);
   return result;
 }
 

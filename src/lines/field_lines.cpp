@@ -16,7 +16,7 @@
 #include "lines/profile.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 namespace {
 
@@ -60,7 +60,7 @@ class SoftLine {
     const std::array<double, 2> last{samples_.cols() - 1.0, samples_.rows() - 1.0};
     for (const std::size_t axis : {0, 1}) {
       for (const double side : {0.0, last[axis]}) {
-        if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / kLatticeSteps) return true;
+        if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / grid::kLatticeSteps) return true;
       }
     }
     return false;
@@ -71,7 +71,7 @@ class SoftLine {
     const double col = std::round(at[0]), row = std::round(at[1]), dx = q[0] - p[0], dy = q[1] - p[1];
     const double beside = (col - p[0]) * dy - (row - p[1]) * dx, along = (col - p[0]) * dx + (row - p[1]) * dy;
     const double length = std::hypot(dx, dy);
-    if (std::abs(beside) >= 0.5 / kLatticeSteps * length || !(along > 0 && along < length * length)) return place;
+    if (std::abs(beside) >= 0.5 / grid::kLatticeSteps * length || !(along > 0 && along < length * length)) return place;
     return {affine_[0] + affine_[1] * col + affine_[2] * row, affine_[3] + affine_[4] * col + affine_[5] * row,
             std::numeric_limits<double>::quiet_NaN()};
   }
@@ -84,7 +84,7 @@ class SoftLine {
   /// Adds bends required by the surface. Visits two positions per sample, and stores their heights in `heights`.
   void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
                    std::vector<Place>& points) const {
-    const SamplePosition way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
+    const grid::SamplePosition way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
     const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
     const auto looks =
@@ -101,14 +101,14 @@ class SoftLine {
 
   const LineSamples& samples_;
   std::array<double, 6> affine_;
-  MapToSamples to_samples_;
+  grid::MapToSamples to_samples_;
   double tolerance_;
 };
 
 /// Edges that are part of lines.
-std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
-  std::vector<GraphEdge> edges;
-  for (const Arrangement::Edge& edge : placed.edges) {
+std::vector<geom::GraphEdge> edges_of_lines(const Breaklines& placed) {
+  std::vector<geom::GraphEdge> edges;
+  for (const geom::Arrangement::Edge& edge : placed.edges) {
     if (edge.is_line) edges.push_back({edge.a, edge.b});
   }
   return edges;
@@ -124,9 +124,9 @@ std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
 }
 
 /// The edges that the lines with numbers [first, end) pass.
-std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
-                                   std::size_t end) {
-  std::vector<PolygonEdge> passes;
+std::vector<geom::PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
+                                         std::size_t end) {
+  std::vector<geom::PolygonEdge> passes;
   for (const auto& chain : placed.chains) {
     if (chain.line < first || chain.line >= end) continue;
     const auto points = placed.points_of(chain);
@@ -139,30 +139,30 @@ std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Lin
 
 /// True if the edge is on the border of the raster's rectangle.
 bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
-  const std::int32_t right = (cols - 1) * kLatticeSteps, bottom = (rows - 1) * kLatticeSteps;
+  const std::int32_t right = (cols - 1) * grid::kLatticeSteps, bottom = (rows - 1) * grid::kLatticeSteps;
   return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
 }
 
 /// The edges that become part of the mesh, and the cut of the surface.
 struct KeptEdges {
-  std::vector<GraphEdge> edges;
+  std::vector<geom::GraphEdge> edges;
   std::vector<std::uint8_t> is_start;         ///< see the graph
-  std::vector<GraphEdge> walls;               ///< edges at which the surface ends, on their positive side
+  std::vector<geom::GraphEdge> walls;         ///< edges at which the surface ends, on their positive side
   std::vector<std::array<Point, 2>> outline;  ///< outline of the rest: the walls, and parts of the raster's sides
 };
 
 /// Edges of breaklines in and around polygons, and the outline of the polygons' union.
 KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines, std::int32_t cols,
                     std::int32_t rows) {
-  const std::vector<GraphEdge> edges = edges_of_lines(placed);
+  const std::vector<geom::GraphEdge> edges = edges_of_lines(placed);
   std::vector<std::uint8_t> is_start(edges.size(), 0);
   for (std::size_t i = 0, line = 0; i < placed.is_held.size(); ++i) {
     if (placed.edges[i].is_line) is_start[line++] = placed.is_held[i] ? 0 : 1;
   }
-  const std::vector<EdgeCover> covers =
-      cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
+  const std::vector<geom::EdgeCover> covers =
+      geom::cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
   std::vector<bool> is_breakline(edges.size(), false);
-  for (const PolygonEdge& pass : passes_of(placed, lines, 0, breaklines))
+  for (const geom::PolygonEdge& pass : passes_of(placed, lines, 0, breaklines))
     is_breakline[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), pass.edge) - edges.begin())] =
         true;
   KeptEdges kept;
@@ -171,7 +171,7 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
     const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
     if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
     const bool is_cut_wall = before != after && !is_on_side(placed.points[a], placed.points[b], cols, rows);
-    if (is_cut_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
+    if (is_cut_wall) kept.walls.push_back(before ? edges[i] : geom::GraphEdge{b, a});
     if (!is_cut_wall && !(is_breakline[i] && (before || after))) continue;
     kept.edges.push_back(edges[i]);
     kept.is_start.push_back(is_start[i]);
@@ -190,9 +190,9 @@ KeptEdges all_edges(const Breaklines& placed) {
 /// The kept edges, with their points.
 ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
   ConstraintGraph graph;
-  std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
+  std::vector<std::uint32_t> numbers(placed.points.size(), tin::kNone);
   const auto number_of = [&](std::uint32_t point) {
-    if (numbers[point] == kNone) {
+    if (numbers[point] == tin::kNone) {
       numbers[point] = static_cast<std::uint32_t>(graph.points.size());
       graph.points.push_back(placed.points[point]);
       graph.heights.push_back(placed.heights[point]);
@@ -217,8 +217,8 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));
   for (std::int32_t i = 0; i <= steps; ++i) {
     const Point p{a.x + dx / steps * i, a.y + dy / steps * i};
-    if (LatticeHeights::is_sample(p))
-      visit(Point{p.x / kLatticeSteps, p.y / kLatticeSteps}, static_cast<double>(i) / steps);
+    if (metric::LatticeHeights::is_sample(p))
+      visit(Point{p.x / grid::kLatticeSteps, p.y / grid::kLatticeSteps}, static_cast<double>(i) / steps);
   }
 }
 
@@ -232,7 +232,7 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
     if (!std::isnan(before) && before != after) edits.push_back({p.x, p.y, before, after});
   };
   for (std::size_t i = 0; i < placed.edges.size(); ++i) {
-    const Arrangement::Edge& edge = placed.edges[i];
+    const geom::Arrangement::Edge& edge = placed.edges[i];
     if (!edge.is_line || !placed.is_hard[edge.a] || !placed.is_hard[edge.b]) continue;
     if (!placed.is_held.empty() && !placed.is_held[i]) continue;
     const double from{placed.heights[edge.a]}, to{placed.heights[edge.b]};
@@ -241,8 +241,8 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
   }
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Point p = placed.points[i];
-    if (placed.is_hard[i] && LatticeHeights::is_sample(p))
-      edit({p.x / kLatticeSteps, p.y / kLatticeSteps}, placed.heights[i]);
+    if (placed.is_hard[i] && metric::LatticeHeights::is_sample(p))
+      edit({p.x / grid::kLatticeSteps, p.y / grid::kLatticeSteps}, placed.heights[i]);
   }
   std::stable_sort(edits.begin(), edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
     return before({a.col, a.row}, {b.col, b.row});
@@ -268,15 +268,15 @@ Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed
     return fail(ErrorKind::kInput,
                 "the cutline lies beside the raster, or is narrower than 1/256 sample: nothing would be left");
   SurfaceCut& cut = *result.graph.cut;
-  cut.rows = std::make_shared<CutRows>(cut.outline, cols, rows);
+  cut.rows = std::make_shared<grid::CutRows>(cut.outline, cols, rows);
   std::erase_if(result.edits, [&](const SampleEdit& edit) {
-    return cut.rows->side({edit.col, edit.row}) == CutSide::kBeyond;
+    return cut.rows->side({edit.col, edit.row}) == grid::CutSide::kBeyond;
   });
   return {};
 }
 
 /// Sets samples well beyond the cut to nodata.
-Result<void> cut_samples(const CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
+Result<void> cut_samples(const grid::CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
   for (const float sample : lines.samples) lines.valid += std::isnan(sample) ? 0 : 1;
   if (!cut.has_surface({lines.samples.data(), cols, rows}))
     return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds nodata only");
@@ -313,7 +313,7 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
 /// because most of them have no real heights.
 FarthestLine find_farthest(std::span<const Line> lines, const std::array<double, 6>& affine,
                            const LineSamples& samples) {
-  const MapToSamples to_samples(affine);
+  const grid::MapToSamples to_samples(affine);
   FarthestLine farthest;
   const auto weight = [](double distance, bool is_at_zero) { return (is_at_zero ? 10 : 1) * distance; };
   for (const Line& line : lines) {
@@ -347,9 +347,10 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
   const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
     return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
-  std::vector<Segment> rigid = samples.outline_near();
-  const std::int32_t width = (field.cols - 1) * kLatticeSteps;
-  for (const std::int32_t row : shared_rows) rigid.push_back({{0, row * kLatticeSteps}, {width, row * kLatticeSteps}});
+  std::vector<geom::Segment> rigid = samples.outline_near();
+  const std::int32_t width = (field.cols - 1) * grid::kLatticeSteps;
+  for (const std::int32_t row : shared_rows)
+    rigid.push_back({{0, row * grid::kLatticeSteps}, {width, row * grid::kLatticeSteps}});
   SCARP_TRY(const auto& placed, place_breaklines(followed, affine, samples, rigid, lines.conflict, is_cut));
   FieldLines result;
   result.farthest = find_farthest(lines.lines, affine, samples);
@@ -363,13 +364,13 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
 
 std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine) {
   constexpr double kBytesPerVertex = 300, kBytesPerSample = 100, kBytesPerSampleOfWall = 50;
-  const MapToSamples to_samples(affine);
+  const grid::MapToSamples to_samples(affine);
   const double longest = static_cast<double>(field.cols) + field.rows;
   double bytes = 0;
   for (const Line& line : lines) {
     bytes += kBytesPerVertex * static_cast<double>(line.points.size());
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-      const SamplePosition way =
+      const grid::SamplePosition way =
           to_samples.way(line.points[k + 1][0] - line.points[k][0], line.points[k + 1][1] - line.points[k][1]);
       bytes +=
           (is_wall(line) ? kBytesPerSampleOfWall : kBytesPerSample) * std::fmin(std::hypot(way.col, way.row), longest);
@@ -390,11 +391,11 @@ std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& line
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
   for (const Line& ring : cutline.rings) {
-    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, cutline.affine));
+    SCARP_RETURN_IF_ERROR(grid::check_line_positions(ring.name, ring.points, cutline.affine));
   }
   if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, shared_rows);
-  SCARP_TRY(const auto& cleaned, Samples::of(field));
-  const Raster raster = cleaned.raster();
+  SCARP_TRY(const auto& cleaned, grid::Samples::of(field));
+  const grid::Raster raster = cleaned.raster();
   const bool is_cut = !cutline.rings.empty();
   const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
   const LineSamples samples(raster);
@@ -405,7 +406,7 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
     return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
   SCARP_TRY(const auto& placed,
-            place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut));
+            place_breaklines(followed, affine, raster, grid::trace_outline(raster), lines.conflict, is_cut));
   FieldLines result;
   result.farthest = find_farthest(lines.lines, affine, samples);
   if (is_cut || std::find(placed.is_hard.begin(), placed.is_hard.end(), true) != placed.is_hard.end()) {
@@ -424,4 +425,4 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
   return result;
 }
 
-}  // namespace scarp
+}  // namespace scarp::lines

@@ -12,7 +12,7 @@
 #include "scarp/lines.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 struct FieldLines {
   ConstraintGraph graph;
@@ -48,4 +48,4 @@ inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints&
 /// Bytes of FieldLines::samples, which is used if lines may edit samples in memory or a cutline masks them.
 std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
 
-}  // namespace scarp
+}  // namespace scarp::lines

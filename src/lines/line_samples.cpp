@@ -8,7 +8,7 @@
 #include "grid/vertex_lattice.h"
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::lines {
 
 namespace {
 
@@ -26,15 +26,16 @@ bool reaches(unsigned corners, unsigned a, unsigned b) {
   return std::popcount(corners) >= 3 && (corners >> a & 1u) != 0 && (corners >> b & 1u) != 0;
 }
 
-Segment in_steps(Point from, Point to) {
-  return {{from.x * kLatticeSteps, from.y * kLatticeSteps}, {to.x * kLatticeSteps, to.y * kLatticeSteps}};
+geom::Segment in_steps(Point from, Point to) {
+  return {{from.x * grid::kLatticeSteps, from.y * grid::kLatticeSteps},
+          {to.x * grid::kLatticeSteps, to.y * grid::kLatticeSteps}};
 }
 
 }  // namespace
 
-Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const Segment> near) {
+Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const geom::Segment> near) {
   LineSamples samples(field.cols, field.rows);
-  for (const Segment& segment : near) samples.mark(segment);
+  for (const geom::Segment& segment : near) samples.mark(segment);
   samples.merge_marks();
   samples.begins_.assign(static_cast<std::size_t>(field.rows) + 1, 0);
   for (const Run& run : samples.runs_) ++samples.begins_[static_cast<std::size_t>(run.row) + 1];
@@ -48,7 +49,7 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
            samples.runs_[end].col - samples.runs_[end - 1].end < kWideGap)
       ++end;
     const std::int32_t count = samples.runs_[end - 1].end - first;
-    SCARP_RETURN_IF_ERROR(read_window(field, first, at, count, 1, row.data(), count));
+    SCARP_RETURN_IF_ERROR(grid::read_window(field, first, at, count, 1, row.data(), count));
     for (; i < end; ++i) {
       const Run& run = samples.runs_[i];
       std::copy(row.begin() + (run.col - first), row.begin() + (run.end - first),
@@ -58,10 +59,10 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
   return samples;
 }
 
-void LineSamples::mark(const Segment& segment) {
+void LineSamples::mark(const geom::Segment& segment) {
   auto [p, q] = segment;
   if (p.y > q.y) std::swap(p, q);
-  constexpr double kSteps = kLatticeSteps;
+  constexpr double kSteps = grid::kLatticeSteps;
   const auto row_of = [](double y) { return static_cast<std::int32_t>(std::floor(y / kSteps)); };
   const double height = static_cast<double>(q.y) - p.y,
                slope = height > 0 ? (static_cast<double>(q.x) - p.x) / height : 0;
@@ -122,8 +123,8 @@ bool LineSamples::has_cell(std::int32_t col, std::int32_t row) const {
          find({col + 1, row + 1}) != kNowhere;
 }
 
-std::vector<Segment> LineSamples::outline_near() const {
-  std::vector<Segment> outline;
+std::vector<geom::Segment> LineSamples::outline_near() const {
+  std::vector<geom::Segment> outline;
   for (const Run& run : runs_) {
     const std::int32_t row = run.row;
     for (std::int32_t col = run.col; col < run.end; ++col) {
@@ -144,4 +145,4 @@ std::vector<Segment> LineSamples::outline_near() const {
   return outline;
 }
 
-}  // namespace scarp
+}  // namespace scarp::lines

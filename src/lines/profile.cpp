@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace scarp {
+namespace scarp::lines {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::vector<std::size_t> find_bends(const std::vector<double>& heights, double t
   return bends;
 }
 
-}  // namespace scarp
+}  // namespace scarp::lines

@@ -50,12 +50,12 @@ class BorderRows {
     for (std::size_t k = 1; k < heights_.size(); ++k) {
       if (k + 1 < heights_.size() && !is_corner(k)) continue;
       const std::size_t count = k - begin + 1;
-      std::vector<EdgeField> fields{{std::span(heights_).subspan(begin, count), rules.height_scale}};
+      std::vector<grid::EdgeField> fields{{std::span(heights_).subspan(begin, count), rules.height_scale}};
       for (std::size_t c = 0; c < channels_.size(); ++c)
         fields.push_back({std::span(channels_[c]).subspan(begin, count), rules.channel_scales[c]});
       const std::span<const double> bounds =
           bounds_.empty() ? std::span<const double>() : std::span(bounds_).subspan(begin, count);
-      for (const std::int32_t at : simplify_edge(fields, rules.norm, tolerance, bounds)) {
+      for (const std::int32_t at : grid::simplify_edge(fields, rules.norm, tolerance, bounds)) {
         const std::int32_t vertex = at + static_cast<std::int32_t>(begin);
         if (line.empty() || line.back() < vertex) line.push_back(vertex);
       }

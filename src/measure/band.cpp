@@ -121,7 +121,8 @@ void Band::note_range(const std::vector<RowHeights>& rows, int top) {
   }
   const auto note = [&](int row) {
     const RowHeights& found = heights_of(row);
-    add_samples(report_.heights, {heights(row), static_cast<std::size_t>(cols_)}, found.least, found.most, found.valid);
+    grid::add_samples(report_.heights, {heights(row), static_cast<std::size_t>(cols_)}, found.least, found.most,
+                      found.valid);
   };
   note(lowest);
   if (highest != lowest) note(highest);

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::judge {
 
 double weigh_by_mask(float weight, double error) { return static_cast<double>(weight) * error; }
 double weigh_by_tolerance(float tolerance, double error) {
   return error == 0 ? 0 : error / static_cast<double>(tolerance);
 }
 
-namespace judge {
 namespace {
 
 double weigh(const ErrorWeigher::Row& row, std::size_t k, double error) {
@@ -44,5 +43,4 @@ WeighedErrors ErrorWeigher::finish() const {
   return weighed;
 }
 
-}  // namespace judge
-}  // namespace scarp
+}  // namespace scarp::judge

@@ -46,7 +46,7 @@ class HeightMarks {
     const int cols = std::min(kSide, field_.cols - col), rows = std::min(kSide, field_.rows - row);
     heights_.resize(kSide * kSide);
     if (!failure_) return;
-    failure_ = read_window(field_, col, row, cols, rows, heights_.data(), kSide);
+    failure_ = grid::read_window(field_, col, row, cols, rows, heights_.data(), kSide);
     if (!failure_) return;
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < cols; ++c) {

@@ -92,7 +92,7 @@ std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, doub
 
 }  // namespace
 
-std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
+std::uint64_t count_hull_gaps(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance) {
   if (open.empty() || snapped.size() == 0) return 0;
   std::vector<Spot> spots = find_outer(snapped.size(), [&](std::size_t i) {

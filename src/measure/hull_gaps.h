@@ -13,7 +13,7 @@ namespace scarp::judge {
 
 /// Counts open edges at which the mesh has a hole or an inlet. At such an edge, the point 4 `tolerance` outside the
 /// edge's middle lies inside the points' convex hull. Cost: O(open edges · log hull), plus O(points).
-std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
+std::uint64_t count_hull_gaps(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance);
 
 /// The same within polygons, given as rings.

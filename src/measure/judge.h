@@ -21,7 +21,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::judge {
 
 /// The largest of some absolute errors, and its sample (col, row): (−1, −1) if all are 0.
 struct LargestError {
@@ -100,6 +100,6 @@ enum class ErrorsOf {
 /// The kept errors as a raster, NaN for nodata or uncovered samples. REQUIRES: JudgeOptions::keep_errors.
 std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
 
-}  // namespace scarp
+}  // namespace scarp::judge
 
 #pragma GCC visibility pop

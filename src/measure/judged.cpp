@@ -13,7 +13,7 @@
 #include "measure/error_weigher.h"
 #include "measure/judge.h"
 
-namespace scarp {
+namespace scarp::judge {
 namespace {
 
 using judge::ErrorWeigher;
@@ -37,11 +37,11 @@ class BoundLimits final : public SampleSource {
   explicit BoundLimits(const JudgeOptions& options)
       : weights_(options.tolerances.weights_source),
         tolerances_(options.max_error ? nullptr : options.tolerances.source),
-        ignored_(PointRows(options.tolerances.ignored)) {}
+        ignored_(grid::PointRows(options.tolerances.ignored)) {}
 
   /// True if samples may be without a bound.
   bool has_any() const { return weights_ != nullptr || tolerances_ != nullptr || !ignored_.empty(); }
-  const PointRows& ignored() const { return ignored_; }
+  const grid::PointRows& ignored() const { return ignored_; }
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     const SampleSource* values = weights_ != nullptr ? weights_ : tolerances_;
@@ -61,7 +61,7 @@ class BoundLimits final : public SampleSource {
  private:
   const SampleSource* weights_;
   const SampleSource* tolerances_;
-  PointRows ignored_;
+  grid::PointRows ignored_;
 };
 
 /// The valid samples without a bound.
@@ -245,7 +245,7 @@ class RowWeigher {
   int cols_, rows_;
   bool is_mask_;
   const SampleSource& values_;
-  const PointRows* ignored_;
+  const grid::PointRows* ignored_;
   ErrorWeigher weigher_;
   std::vector<float> held_, limits_;  // held_: values of rows [first_, end_); limits_: of a row
   int first_ = 0, end_ = 0;
@@ -417,4 +417,4 @@ std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of) {
   return errors;
 }
 
-}  // namespace scarp
+}  // namespace scarp::judge

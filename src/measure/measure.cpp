@@ -52,7 +52,7 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
   SCARP_RETURN_IF_ERROR(judge::check_mesh(mesh));
   for (const Line& ring :
        options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
-    SCARP_RETURN_IF_ERROR(check_line_positions(ring.name, ring.points, options.cutline->affine));
+    SCARP_RETURN_IF_ERROR(grid::check_line_positions(ring.name, ring.points, options.cutline->affine));
   }
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");

@@ -51,8 +51,8 @@ struct Verdict {
 
 class Judge {
  public:
-  Judge(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh, std::span<const std::uint32_t> judged,
-        const Box& box, double tolerance)
+  Judge(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
+        std::span<const std::uint32_t> judged, const Box& box, double tolerance)
       : points_(points),
         snapped_(snapped),
         mesh_(mesh),
@@ -181,7 +181,7 @@ class Judge {
   }
 
   const PointSet& points_;
-  const SnappedPoints& snapped_;
+  const grid::SnappedPoints& snapped_;
   const Mesh& mesh_;
   double tolerance_;
   BucketGrid grid_;
@@ -190,7 +190,7 @@ class Judge {
 /// The bounds of points. Tolerances allow for the rounding of the judge's own arithmetic.
 class PointBounds {
  public:
-  PointBounds(const SnappedPoints& snapped, const MeasureOptions& options)
+  PointBounds(const grid::SnappedPoints& snapped, const MeasureOptions& options)
       : for_all_(options.collect_above.value_or(HUGE_VAL)), tolerances_(options.tolerance) {
     for (const double z : snapped.z) largest_ = std::max(largest_, std::abs(z));
   }
@@ -283,7 +283,7 @@ void summarize(std::span<const double> errors, Measurement& result) {
 
 }  // namespace
 
-Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
+Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options) {
   SCARP_RETURN_IF_ERROR(check_mesh(mesh));
   SCARP_RETURN_IF_ERROR(check_options(points, options));
@@ -314,7 +314,7 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     box.include(points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]);
   };
   for (const std::uint32_t source : snapped.source) include(source);
-  for (const Echo& echo : snapped.echoes) include(echo.source);
+  for (const grid::Echo& echo : snapped.echoes) include(echo.source);
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
   const auto places = static_cast<double>(snapped.size() + snapped.echoes.size());
   const double tolerance = options.coverage_tolerance * std::sqrt(area / places);
@@ -394,7 +394,7 @@ namespace scarp {
 
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options) try {
-  auto snapped = snap_points(points, duplicates, PointSteps::kJudge);
+  auto snapped = grid::snap_points(points, duplicates, grid::PointSteps::kJudge);
   if (!snapped) {
     Error error = snapped.error();
     if (!points.path.empty()) error.message = points.path + ": " + error.message;

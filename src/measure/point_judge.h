@@ -10,7 +10,7 @@
 namespace scarp::judge {
 
 /// The part of measure_points() that follows after duplicates have been resolved.
-Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
+Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options);
 
 }  // namespace scarp::judge

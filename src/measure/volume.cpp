@@ -37,8 +37,7 @@
 #include "mesh/exact_orient.h"
 #include "scarp/measure.h"
 
-namespace scarp {
-namespace judge {
+namespace scarp::judge {
 namespace {
 
 /// A corner of a part of a triangle. At first, z is the height of the triangle's plane; later, a difference of heights.
@@ -59,16 +58,16 @@ struct Part {
 /// opposite to corner k; 1 is inside.
 using Signs = std::array<std::array<int, 3>, 3>;
 
-Point2 corner(const PlanTriangle& plan, std::size_t k) { return {plan.x[k], plan.y[k]}; }
+mesh::Point2 corner(const PlanTriangle& plan, std::size_t k) { return {plan.x[k], plan.y[k]}; }
 
 /// None if `b` lies entirely beyond or on a side of `a`.
 std::optional<Signs> find_signs(const PlanTriangle& a, const PlanTriangle& b) {
   Signs signs;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point2 begin = corner(a, (k + 1) % 3), end = corner(a, (k + 2) % 3);
+    const mesh::Point2 begin = corner(a, (k + 1) % 3), end = corner(a, (k + 2) % 3);
     bool is_inside = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      signs[k][i] = exact_orient(begin, end, corner(b, i));
+      signs[k][i] = mesh::exact_orient(begin, end, corner(b, i));
       is_inside = is_inside || signs[k][i] > 0;
     }
     if (!is_inside) return std::nullopt;
@@ -184,7 +183,9 @@ Prism find_prism(const Facet& from, double level) {
   return integrate(part);
 }
 
-}  // namespace judge
+}  // namespace scarp::judge
+
+namespace scarp {
 
 namespace {
 
@@ -196,7 +197,7 @@ using judge::Sum;
 
 tl::unexpected<Error> stopped() { return fail(ErrorKind::kCancelled, "measuring the volume was cancelled"); }
 
-Point2 place_of(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
+mesh::Point2 place_of(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
   const double* const at = &mesh.positions[3 * std::size_t{mesh.triangles[3 * triangle + corner]}];
   return {at[0], at[1]};
 }
@@ -223,7 +224,7 @@ Result<void> check_surface(const Mesh& mesh, const std::string& name, const Run&
   }
   bool has_area = true;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const int facing = exact_orient(place_of(mesh, t, 0), place_of(mesh, t, 1), place_of(mesh, t, 2));
+    const int facing = mesh::exact_orient(place_of(mesh, t, 0), place_of(mesh, t, 1), place_of(mesh, t, 2));
     if (facing > 0) continue;
     has_area = false;
     if (facing == 0 && !is_upright(mesh, t)) continue;

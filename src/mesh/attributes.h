@@ -5,7 +5,7 @@
 
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// Calls visit(array, numbers per vertex) for uvs, colors and channels, if present.
 template <class AnyMesh, class Visit>
@@ -22,4 +22,4 @@ inline void append_attributes_of(Mesh& mesh, std::size_t vertex) {
   });
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

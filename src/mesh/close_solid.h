@@ -3,7 +3,7 @@
 
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// True if a base at z = `base` is below every vertex, also in float32 offsets.
 bool is_below_all(const Mesh& mesh, double base);
@@ -12,4 +12,4 @@ bool is_below_all(const Mesh& mesh, double base);
 /// move into their part by a few units in the last place of float32. REQUIRES: as add_base(); is_below_all().
 void close_solid(Mesh& mesh, double base, bool step_back);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

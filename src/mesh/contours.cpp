@@ -37,7 +37,7 @@ class ContourTracer {
       done_[entry / 3] = number_;
       const std::uint32_t exit = exit_of(entry);
       const std::uint32_t next = twins_[exit];
-      if (next == kNoHalfEdge) {
+      if (next == mesh::kNoHalfEdge) {
         add(line.points, exit);
         break;
       }
@@ -59,13 +59,13 @@ class ContourTracer {
   /// height.
   std::uint32_t entry_of(std::uint32_t triangle) const {
     std::uint32_t h = 3 * triangle;
-    while (!is_above(h) || is_above(next_half_edge(h))) h = next_half_edge(h);
+    while (!is_above(h) || is_above(mesh::next_half_edge(h))) h = mesh::next_half_edge(h);
     return h;
   }
   /// The edge that rises above the height.
   std::uint32_t exit_of(std::uint32_t entry) const {
-    std::uint32_t h = next_half_edge(entry);
-    while (is_above(h) || !is_above(next_half_edge(h))) h = next_half_edge(h);
+    std::uint32_t h = mesh::next_half_edge(entry);
+    while (is_above(h) || !is_above(mesh::next_half_edge(h))) h = mesh::next_half_edge(h);
     return h;
   }
 
@@ -74,7 +74,7 @@ class ContourTracer {
   std::uint32_t find_start(std::uint32_t triangle) const {
     const std::uint32_t given = entry_of(triangle);
     std::uint32_t entry = given;
-    while (twins_[entry] != kNoHalfEdge) {
+    while (twins_[entry] != mesh::kNoHalfEdge) {
       entry = entry_of(twins_[entry] / 3);
       if (entry == given) break;
     }
@@ -83,7 +83,7 @@ class ContourTracer {
 
   void add(std::vector<std::array<double, 2>>& points, std::uint32_t half_edge) const {
     auto low = mesh_.vertex(mesh_.triangles[half_edge]),
-         high = mesh_.vertex(mesh_.triangles[next_half_edge(half_edge)]);
+         high = mesh_.vertex(mesh_.triangles[mesh::next_half_edge(half_edge)]);
     if (low[2] > high[2]) std::swap(low, high);
     std::array<double, 2> point{high[0], high[1]};
     if (high[2] != height_) {
@@ -148,7 +148,7 @@ Result<std::vector<Contour>> find_contours(const Mesh& mesh, double interval) {
                 fmt::format("contours every {} between {} and {} are too many: 1,000,000 heights at most", interval,
                             low, high));
   std::vector<Contour> contours;
-  const std::vector<std::uint32_t> twins = build_twins(mesh.triangles);
+  const std::vector<std::uint32_t> twins = mesh::build_twins(mesh.triangles);
   std::vector<std::int64_t> done(mesh.triangle_count(), std::numeric_limits<std::int64_t>::min());
   ContourTracer tracer(mesh, twins, done);
   for (const CrossedTriangle& crossed : find_crossed(mesh, interval)) {

@@ -9,7 +9,7 @@
 
 #include "base/exact_arithmetic.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 int exact_orient(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
@@ -36,4 +36,4 @@ int exact_orient(const Point2& a, const Point2& b, const Point2& c) {
   return 0;
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace scarp {
+namespace scarp::mesh {
 
 using Point2 = std::array<double, 2>;
 
@@ -11,4 +11,4 @@ using Point2 = std::array<double, 2>;
 /// or between 1e-140 and 1e150. (1) Rotating the arguments does not change the sign. (2) Swapping two negates it.
 int exact_orient(const Point2& a, const Point2& b, const Point2& c);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

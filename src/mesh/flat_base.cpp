@@ -29,7 +29,7 @@
 #include "mesh/exact_orient.h"
 #include "mesh/half_edges.h"
 
-namespace scarp {
+namespace scarp::mesh {
 namespace {
 
 class FlatBase {
@@ -221,4 +221,4 @@ std::vector<std::uint32_t> build_flat_base(std::span<const double> positions, st
   return FlatBase(positions, std::move(triangles), std::move(twins)).build();
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// Triangulates the region that `triangles` cover seen from above. Omits inner vertices, and border vertices that lie
 /// between their neighbours on a line along x or y. c corners and h holes give c + 2h − 2 triangles per part. Triangles
@@ -15,4 +15,4 @@ namespace scarp {
 std::vector<std::uint32_t> build_flat_base(std::span<const double> positions, std::vector<std::uint32_t> triangles,
                                            std::vector<std::uint32_t> twins);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::mesh {
 
 std::vector<std::uint32_t> build_twins(std::span<const std::uint32_t> triangles) {
   struct Edge {
@@ -32,4 +32,4 @@ std::vector<std::uint32_t> build_twins(std::span<const std::uint32_t> triangles)
   return twins;
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

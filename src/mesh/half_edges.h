@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// Half-edge 3t + k of triangle t runs from its corner k to its corner k + 1.
 inline constexpr std::uint32_t kNoHalfEdge = std::numeric_limits<std::uint32_t>::max();
@@ -19,4 +19,4 @@ inline std::uint32_t previous_half_edge(std::uint32_t h) { return h % 3 == 0 ? h
 /// bytes per half-edge during the call.
 std::vector<std::uint32_t> build_twins(std::span<const std::uint32_t> triangles);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

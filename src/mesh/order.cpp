@@ -27,12 +27,12 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kPartVertices = 1 << 15;
-constexpr std::uint32_t kUnused = VertexNumbers::kUnused;
+constexpr std::uint32_t kUnused = mesh::VertexNumbers::kUnused;
 
 }  // namespace
 
-VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t vertices) {
-  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
+mesh::VertexNumbers mesh::number_used(std::span<const std::uint32_t> corners, std::size_t vertices) {
+  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
   for (const std::uint32_t v : corners) numbers.ids[v] = 0;
   std::uint32_t count = 0;
   for (std::uint32_t& id : numbers.ids) {
@@ -50,7 +50,8 @@ constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
 constexpr unsigned kCacheSize = 16;
 
 /// The position of each vertex along a curve through `side` × `side` cells of the bounding rectangle.
-std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_places, std::size_t side, int threads) {
+std::vector<std::uint32_t> curve_places(std::size_t vertices, mesh::FindPlaces find_places, std::size_t side,
+                                        int threads) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr std::size_t kAtOnce = 4096;
   struct Box {
@@ -103,8 +104,8 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, FindPlaces find_pl
 }  // namespace
 
 // Triangles are sorted by their first corner along the curve; triangles of one cell keep their order.
-std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
-                                         FindPlaces find_places, int threads) {
+std::vector<std::uint32_t> mesh::sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
+                                               mesh::FindPlaces find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
   const std::size_t count = corners.size() / 3;
   std::size_t side = 1;
@@ -207,13 +208,13 @@ std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int thre
 
 }  // namespace
 
-VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads) {
+mesh::VertexNumbers mesh::sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads) {
   const auto for_each_chunk = [&](const auto& task) {
     parallel_for_parts(corners.size(), kChunkCorners, threads,
                        [&](std::size_t first, std::size_t end) { task(corners.data() + first, end - first); });
   };
   for_each_chunk(order_chunk);
-  VertexNumbers numbers{std::vector<std::uint32_t>(vertices)};
+  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices)};
   numbers.count = number_by_first_use(corners, threads, numbers.ids);
   for_each_chunk([&](std::uint32_t* chunk, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) chunk[i] = numbers.ids[chunk[i]];
@@ -244,8 +245,8 @@ void optimize_order(Mesh& mesh, int threads) {
   const auto find_places = [&](std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) {
     for (std::size_t v = first; v < end; ++v) places[v - first] = {mesh.positions[3 * v], mesh.positions[3 * v + 1]};
   };
-  mesh.triangles = sort_by_place(mesh.triangles, vertices, find_places, threads);
-  const VertexNumbers numbers = sort_for_cache(mesh.triangles, vertices, threads);
+  mesh.triangles = mesh::sort_by_place(mesh.triangles, vertices, find_places, threads);
+  const mesh::VertexNumbers numbers = mesh::sort_for_cache(mesh.triangles, vertices, threads);
 
   const auto reorder = [&](auto& values, std::size_t width) {
     std::decay_t<decltype(values)> reordered;
@@ -261,7 +262,7 @@ void optimize_order(Mesh& mesh, int threads) {
   };
   reorder(mesh.positions, 3);
   if (!mesh.normals.empty()) reorder(mesh.normals, 3);
-  for_each_attribute(mesh, reorder);
+  mesh::for_each_attribute(mesh, reorder);
 }
 
 }  // namespace scarp

@@ -10,7 +10,7 @@
 
 #include "base/function_ref.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// Writes the positions of the vertices [first, end), seen from above, relative to any origin; NaN for vertices without
 /// triangles. Several threads call it at once, repeatedly, for parts of the vertices.
@@ -36,4 +36,4 @@ std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners,
 /// order.
 VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

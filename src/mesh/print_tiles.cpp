@@ -17,7 +17,7 @@
 #include <limits>
 #include <utility>
 
-namespace scarp {
+namespace scarp::mesh {
 namespace {
 
 using Point2 = std::array<double, 2>;
@@ -209,4 +209,4 @@ std::vector<Mesh> cut_print_tiles(const Mesh& terrain, const Frame& frame, const
   return tiles;
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

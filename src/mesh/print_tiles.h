@@ -12,7 +12,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// How to divide a terrain into print tiles.
 struct PrintTileOptions {
@@ -53,6 +53,6 @@ class PrintTilePlan {
 /// REQUIRES: `frame` is the mesh's frame and affine. Cost: O(n).
 std::vector<Mesh> cut_print_tiles(const Mesh& terrain, const Frame& frame, const PrintTilePlan& plan);
 
-}  // namespace scarp
+}  // namespace scarp::mesh
 
 #pragma GCC visibility pop

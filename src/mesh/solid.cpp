@@ -51,7 +51,7 @@ class Inspection {
   explicit Inspection(const Mesh& mesh) : origin_(mesh.origin), places_(mesh.positions.size()) {
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = rounded(mesh.positions[i]);
     triangles_ = weld(places_, mesh.triangles);
-    twins_ = build_twins(triangles_);
+    twins_ = mesh::build_twins(triangles_);
   }
 
   SolidFacts run() {
@@ -90,7 +90,7 @@ class Inspection {
     const auto a = at(triangles_[3 * t]), b = at(triangles_[3 * t + 1]), c = at(triangles_[3 * t + 2]);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-      if (exact_orient({a[u], a[v]}, {b[u], b[v]}, {c[u], c[v]}) != 0) return false;
+      if (mesh::exact_orient({a[u], a[v]}, {b[u], b[v]}, {c[u], c[v]}) != 0) return false;
     }
     return true;
   }
@@ -98,7 +98,8 @@ class Inspection {
   void count_faulty_edges() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (std::uint32_t h = 0; h < twins_.size(); ++h) {
-      if (twins_[h] == kNoHalfEdge) edges.push_back(std::minmax(triangles_[h], triangles_[next_half_edge(h)]));
+      if (twins_[h] == mesh::kNoHalfEdge)
+        edges.push_back(std::minmax(triangles_[h], triangles_[mesh::next_half_edge(h)]));
     }
     std::sort(edges.begin(), edges.end());
     facts_.faulty_edges = static_cast<std::uint64_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
@@ -111,7 +112,7 @@ class Inspection {
       if (is_seen[h]) continue;
       std::uint8_t& count = fans[triangles_[h]];
       if (count < 2) facts_.pinched_vertices += ++count == 2;
-      for (std::uint32_t around = h; !is_seen[around]; around = twins_[previous_half_edge(around)])
+      for (std::uint32_t around = h; !is_seen[around]; around = twins_[mesh::previous_half_edge(around)])
         is_seen[around] = true;
     }
   }
@@ -129,7 +130,7 @@ class Inspection {
         pending.pop_back();
         volume += volume_under(t);
         for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-          const std::uint32_t beside = twins_[h] == kNoHalfEdge ? t : twins_[h] / 3;
+          const std::uint32_t beside = twins_[h] == mesh::kNoHalfEdge ? t : twins_[h] / 3;
           if (is_seen[beside]) continue;
           is_seen[beside] = true;
           pending.push_back(beside);
@@ -199,11 +200,11 @@ Result<Mesh> build_solid(Mesh terrain, double base) {
     terrain.positions[i] = double{rounded(terrain.positions[i])};
     if (i % 3 == 2) lowest = std::min(lowest, terrain.origin[2] + terrain.positions[i]);
   }
-  if (!is_below_all(terrain, base)) {
+  if (!mesh::is_below_all(terrain, base)) {
     return fail(ErrorKind::kUsage,
                 fmt::format("the base, at {:.10g}, is not below the lowest vertex, which is at {:.10g}", base, lowest));
   }
-  close_solid(terrain, base, true);
+  mesh::close_solid(terrain, base, true);
   const SolidFacts facts = measure_solid(terrain);
   if (!facts.is_solid()) {
     return fail(

@@ -8,7 +8,7 @@
 
 #include "mesh/half_edges.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 namespace {
 
@@ -125,4 +125,4 @@ void remove_thin_triangles(Mesh& mesh, double thinnest, double thinnest_border) 
   Trimmer(mesh, thinnest, thinnest_border).run();
 }
 
-}  // namespace scarp
+}  // namespace scarp::mesh

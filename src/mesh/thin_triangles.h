@@ -3,7 +3,7 @@
 
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::mesh {
 
 /// Removes triangles, including folded ones, if their height over the longest side, seen from above, is below
 /// `thinnest`. The longest side is flipped if that increases the smaller height of its two triangles. If the longest
@@ -14,4 +14,4 @@ namespace scarp {
 /// Cost: O(triangles), plus a sort of them if one is thin.
 void remove_thin_triangles(Mesh& mesh, double thinnest, double thinnest_border);
 
-}  // namespace scarp
+}  // namespace scarp::mesh

@@ -7,7 +7,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// Calls visit(p, share) for each lattice point p strictly between a and b on their line, from a to b; share is its
 /// fraction of the way, in (0, 1).
@@ -18,4 +18,4 @@ void visit_between(Point a, Point b, Visit&& visit) {
     visit(Point{a.x + dx / steps * i, a.y + dy / steps * i}, static_cast<double>(i) / steps);
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -7,7 +7,7 @@
 
 #include "base/exact_arithmetic.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 float round_down_to_float(double value) {
   if (value >= std::numeric_limits<float>::max())
@@ -44,4 +44,4 @@ Error refuse_value(const char* what, Point at, float value, const char* rest) {
           fmt::format("{} at sample ({}, {}) is {}: it must be at least 0{}", what, at.x, at.y, value, rest)};
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -6,7 +6,7 @@
 #include "base/point.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// The largest double whose exact product with `weight` is at most `value`, or the double below it.
 double divide_down(double value, double weight);
@@ -32,4 +32,4 @@ struct BoundRule {
 /// The kUsage error for an invalid value in a raster of weights or bounds.
 Error refuse_value(const char* what, Point at, float value, const char* rest = "");
 
-}  // namespace scarp
+}  // namespace scarp::metric

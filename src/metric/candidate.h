@@ -4,7 +4,7 @@
 #include "base/point.h"
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// The sample that a triangle would insert next.
 struct Candidate {
@@ -17,4 +17,4 @@ inline bool is_worse(const Candidate& a, const Candidate& b) {
   return a.error != b.error ? a.error > b.error : before(a.at, b.at);
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -10,7 +10,7 @@
 #include "metric/importance.h"
 #include "metric/source_metric.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
@@ -47,8 +47,8 @@ double asked_bound(const SimplifyOptions& options, std::optional<double> max_err
   return asked_of(options, max_error, i, 1);
 }
 
-Result<Criterion> Criterion::make(const HeightField& field, const Request& options, const Raster& raster, double aim,
-                                  double factor) {
+Result<Criterion> Criterion::make(const HeightField& field, const Request& options, const grid::Raster& raster,
+                                  double aim, double factor) {
   Criterion criterion;
   criterion.field_ = &field;
   criterion.options_ = &options;
@@ -204,4 +204,4 @@ std::vector<Point> Criterion::ranking() const {
   return points;
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -16,7 +16,7 @@
 #include "scarp/height_field.h"
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// True if samples have individual tolerances, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
@@ -34,10 +34,10 @@ class Criterion {
   /// value at a sample, which the error names) and kPromise (a tolerance below the rounding of the samples). `field`,
   /// `options` and the raster's samples must outlive it. `aim`: the fraction of the bounds that the metric targets if
   /// only heights have bounds. `factor`: multiplies all tolerances.
-  static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
-                                double factor = 1);
+  static Result<Criterion> make(const HeightField& field, const Request& options, const grid::Raster& raster,
+                                double aim = 1, double factor = 1);
   /// A temporary Request, converted from SimplifyOptions, would not live long enough.
-  static Result<Criterion> make(const HeightField&, Request&&, const Raster&, double = 1, double = 1) = delete;
+  static Result<Criterion> make(const HeightField&, Request&&, const grid::Raster&, double = 1, double = 1) = delete;
 
   const ErrorMetric& metric() const { return *metric_; }
   /// Bound of the combined error if samples have no individual bounds; none without an error goal.
@@ -81,7 +81,7 @@ class Criterion {
 
   const HeightField* field_ = nullptr;
   const Request* options_ = nullptr;
-  Raster raster_;
+  grid::Raster raster_;
   std::optional<double> bound_;
   double aim_ = 1, factor_ = 1;
   std::vector<float> bounds_, aims_, factors_;
@@ -91,4 +91,4 @@ class Criterion {
   std::unique_ptr<ErrorMetric> metric_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -12,7 +12,7 @@
 #include "base/point.h"
 #include "metric/candidate.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// The fit of a triangle to the samples in it (closed: samples on its edges count).
 struct Fit {
@@ -57,4 +57,4 @@ class ErrorMetric {
   virtual double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

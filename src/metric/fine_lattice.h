@@ -8,7 +8,7 @@
 
 #include "geom/scan.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// The finest lattice for scans of triangles. Without this limit, one sliver across a large raster would dominate the
 /// cost.
@@ -30,7 +30,7 @@ inline double interpolate(const float* samples, std::int32_t cols, std::int64_t 
 template <class Visit>
 void scan_fine(std::array<Point, 3> corners, int lattice, Visit&& visit) {
   for (Point& p : corners) p = {p.x * lattice, p.y * lattice};
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     for (std::int32_t x = first; x <= last; ++x)
       visit(x, y, static_cast<double>(x) / lattice, static_cast<double>(y) / lattice);
   });
@@ -50,4 +50,4 @@ inline int find_lattice(const std::array<Point, 3>& corners, double f) {
   return std::max(1, floor < wanted ? floor + 1 : floor);
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -10,19 +10,19 @@
 #include "metric/between.h"
 #include "metric/fine_lattice.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
-std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>& corners) {
+std::array<float, 3> heights_at(const grid::Raster& raster, const std::array<Point, 3>& corners) {
   return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
 }
 
 /// The worst of a row's samples, if worse than `worst`. NaN samples lose every comparison.
-void find_worst(const ScanKernels& kernels, const Plane& plane, const float* samples, std::int32_t y,
+void find_worst(const geom::ScanKernels& kernels, const geom::Plane& plane, const float* samples, std::int32_t y,
                 std::int32_t first, std::int32_t last, Candidate& worst) {
   const double row_height = plane.row_height(y);
-  if (last - first + 1 >= kMinVectorRow) {
+  if (last - first + 1 >= geom::kMinVectorRow) {
     std::int32_t at = 0;
     if (kernels.scan_row(samples + first, last - first + 1, row_height, plane.slope_x, first - plane.base.x,
                          worst.error, at))
@@ -37,7 +37,7 @@ void find_worst(const ScanKernels& kernels, const Plane& plane, const float* sam
 }
 
 /// Adds the worst error and the squared errors of a row's samples.
-void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int32_t first, std::int32_t last,
+void add_row(const geom::Plane& plane, const float* samples, std::int32_t y, std::int32_t first, std::int32_t last,
              Candidate& worst, double& squares) {
   const double row_height = plane.row_height(y);
   for (std::int32_t x = first; x <= last; ++x) {
@@ -50,13 +50,13 @@ void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int3
 
 /// Fits with the plane's own arithmetic.
 template <bool kSquares>
-Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question) {
-  const Plane plane = Plane::through(corners, heights_at(raster, corners));
-  [[maybe_unused]] const ScanKernels& kernels = scan_kernels();
+Fit scan(const grid::Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question) {
+  const geom::Plane plane = geom::Plane::through(corners, heights_at(raster, corners));
+  [[maybe_unused]] const geom::ScanKernels& kernels = geom::scan_kernels();
   Candidate worst{-1, {}};
   Fit fit;
   double squares = 0;
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     if constexpr (kSquares) {
@@ -74,8 +74,9 @@ Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQue
 }
 
 /// Computes the scores again, on a finer lattice.
-void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question, Fit& fit) {
-  const Plane plane = Plane::through(corners, heights_at(raster, corners));
+void refine_scores(const grid::Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question,
+                   Fit& fit) {
+  const geom::Plane plane = geom::Plane::through(corners, heights_at(raster, corners));
   double most = 0, squares = 0;
   scan_fine(corners, question.lattice, [&](std::int32_t x, std::int32_t y, double fx, double fy) {
     const double surface = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
@@ -91,17 +92,17 @@ void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, co
 }
 
 /// The worst sample that exceeds the threshold in exact arithmetic.
-std::optional<Candidate> scan_exactly(const Raster& raster, const std::array<Point, 3>& corners, const Plane& plane,
-                                      double threshold) {
+std::optional<Candidate> scan_exactly(const grid::Raster& raster, const std::array<Point, 3>& corners,
+                                      const geom::Plane& plane, double threshold) {
   const auto heights = heights_at(raster, corners);
   std::optional<Candidate> worst;
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     for (std::int32_t x = first; x <= last; ++x) {
       const Point p{x, y};
       const float sample = raster.at(p);
       const double error = std::abs(plane.height_at(p) - double{sample});
       if (!(error >= threshold - plane.guard) || (worst && error <= worst->error)) continue;
-      if (exceeds_exactly(corners, heights, p, sample, threshold)) worst = Candidate{error, p};
+      if (geom::exceeds_exactly(corners, heights, p, sample, threshold)) worst = Candidate{error, p};
     }
   });
   return worst;
@@ -121,7 +122,7 @@ std::optional<Candidate> HeightMetric::find_candidate(const std::array<Point, 3>
   if (worst.error < threshold_ - fit.guard) return std::nullopt;
   // A level plane has no guard: only one subtraction rounds, and monotonically, so only equality is uncertain.
   if (fit.guard == 0 && (threshold_ == 0 || worst.error != threshold_)) return std::nullopt;
-  return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
+  return scan_exactly(raster_, corners, geom::Plane::through(corners, heights_at(raster_, corners)), threshold_);
 }
 
 double HeightMetric::squares_between(Point a, Point b) const {
@@ -135,7 +136,8 @@ double HeightMetric::squares_between(Point a, Point b) const {
 }
 
 double HeightMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
-  return bend_of(Plane::through(a, heights_at(raster_, a)), Plane::through(b, heights_at(raster_, b)));
+  return geom::bend_of(geom::Plane::through(a, heights_at(raster_, a)),
+                       geom::Plane::through(b, heights_at(raster_, b)));
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

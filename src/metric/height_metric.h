@@ -4,11 +4,11 @@
 #include "grid/raster.h"
 #include "metric/error_metric.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 class HeightMetric final : public ErrorMetric {
  public:
-  HeightMetric(const Raster& raster, double threshold) : raster_(raster), threshold_(threshold) {}
+  HeightMetric(const grid::Raster& raster, double threshold) : raster_(raster), threshold_(threshold) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
@@ -17,8 +17,8 @@ class HeightMetric final : public ErrorMetric {
   double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
 
  private:
-  Raster raster_;
+  grid::Raster raster_;
   double threshold_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

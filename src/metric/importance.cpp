@@ -9,13 +9,13 @@
 
 #include "metric/criterion.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
 class Neighbourhood {
  public:
-  explicit Neighbourhood(const Raster& raster) : raster_(raster) {}
+  explicit Neighbourhood(const grid::Raster& raster) : raster_(raster) {}
 
   bool has(std::int32_t x, std::int32_t y) const {
     return x >= 0 && y >= 0 && x < raster_.cols && y < raster_.rows && raster_.is_valid({x, y});
@@ -30,7 +30,7 @@ class Neighbourhood {
   }
 
  private:
-  const Raster& raster_;
+  const grid::Raster& raster_;
 };
 
 constexpr Point kDirections[] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
@@ -67,7 +67,7 @@ double damped(double feature, Importance::Damping damping) {
   return damping == Importance::Damping::kPlusOne ? feature + 1 : std::sqrt(feature + 1);
 }
 
-std::vector<float> measure_feature(const Raster& raster, const Importance& importance) {
+std::vector<float> measure_feature(const grid::Raster& raster, const Importance& importance) {
   const Neighbourhood near(raster);
   std::vector<float> values;
   values.reserve(static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows));
@@ -87,7 +87,7 @@ std::vector<float> measure_feature(const Raster& raster, const Importance& impor
   return values;
 }
 
-std::vector<Point> rank_samples(const Raster& raster, const std::vector<float>& values) {
+std::vector<Point> rank_samples(const grid::Raster& raster, const std::vector<float>& values) {
   std::vector<Point> points;
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {
@@ -125,4 +125,4 @@ Result<void> Criterion::check_strategy() const {
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

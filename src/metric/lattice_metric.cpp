@@ -10,11 +10,11 @@
 #include "geom/scan_kernels.h"
 #include "metric/between.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
-Point lattice_point(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
+Point lattice_point(std::int32_t x, std::int32_t y) { return {x * grid::kLatticeSteps, y * grid::kLatticeSteps}; }
 
 }  // namespace
 
@@ -49,20 +49,20 @@ Fit LatticeMetric::fit(const std::array<Point, 3>& corners, const FitQuestion&) 
 
 /// The largest error, if it may exceed the threshold.
 Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
-  const Plane plane = plane_of(corners);
+  const geom::Plane plane = plane_of(corners);
   const double least = threshold_ - plane.guard;
   double worst = std::nextafter(least, -1.0);  // an error equal to `least` is also uncertain
   Point at;
-  const ScanKernels& kernels = scan_kernels();
+  const geom::ScanKernels& kernels = geom::scan_kernels();
   // kLatticeSteps is a power of two, so each product rounds like slope_x times steps.
-  const double slope = plane.slope_x * kLatticeSteps, base = plane.base.x / double{kLatticeSteps};
+  const double slope = plane.slope_x * grid::kLatticeSteps, base = plane.base.x / double{grid::kLatticeSteps};
   Fit fit;
   fit.guard = plane.guard;
-  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_samples(corners, grid::kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     const float* const samples = samples_.samples(first, y, last - first + 1);
-    const double row_height = plane.row_height(y * kLatticeSteps);
-    if (last - first + 1 >= kMinVectorRow) {
+    const double row_height = plane.row_height(y * grid::kLatticeSteps);
+    if (last - first + 1 >= geom::kMinVectorRow) {
       std::int32_t found = 0;
       if (kernels.scan_row(samples, last - first + 1, row_height, slope, first - base, worst, found))
         at = lattice_point(first + found, y);
@@ -83,16 +83,16 @@ Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
 }
 
 Fit LatticeMetric::fit_by_bounds(const std::array<Point, 3>& corners) const {
-  const Plane plane = plane_of(corners);
+  const geom::Plane plane = plane_of(corners);
   Fit fit;
   fit.guard = plane.guard;
-  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_samples(corners, grid::kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     const float* const samples = samples_.samples(first, y, last - first + 1);
     const float* const bounds = bounds_->samples(first, y, last - first + 1);
-    const double row_height = plane.row_height(y * kLatticeSteps);
+    const double row_height = plane.row_height(y * grid::kLatticeSteps);
     for (std::int32_t x = first; x <= last; ++x) {
-      const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
+      const double offset = static_cast<double>(x * grid::kLatticeSteps - plane.base.x);
       const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x - first]});
       const double bound = bounds[x - first];
       if (!(error >= bound - plane.guard)) continue;  // nodata, or certainly within its bound
@@ -108,10 +108,10 @@ Fit LatticeMetric::fit_by_bounds(const std::array<Point, 3>& corners) const {
 std::optional<Candidate> LatticeMetric::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   if (!fit.unsettled) return std::nullopt;
   if (!bounds_ && fit.worst.error > threshold_ + fit.guard) return fit.worst;
-  const Plane plane = plane_of(corners);
+  const geom::Plane plane = plane_of(corners);
   const auto heights = heights_at(corners);
   std::optional<Candidate> worst;
-  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_samples(corners, grid::kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float* const samples = samples_.samples(first, y, last - first + 1);
     const float* const bounds = bounds_ ? bounds_->samples(first, y, last - first + 1) : nullptr;
     for (std::int32_t x = first; x <= last; ++x) {
@@ -122,7 +122,7 @@ std::optional<Candidate> LatticeMetric::find_candidate(const std::array<Point, 3
       if (!(error >= bound - plane.guard) || std::isinf(bound)) continue;
       const double share = importance(error, bound);
       if (worst && share <= worst->error) continue;
-      if (exceeds_exactly(corners, heights, point, sample, bound)) worst = Candidate{share, point};
+      if (geom::exceeds_exactly(corners, heights, point, sample, bound)) worst = Candidate{share, point};
     }
   });
   return worst;
@@ -140,7 +140,7 @@ double LatticeMetric::squares_between(Point a, Point b) const {
 }
 
 double LatticeMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
-  return bend_of(plane_of(a), plane_of(b));
+  return geom::bend_of(plane_of(a), plane_of(b));
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

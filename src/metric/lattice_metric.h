@@ -12,16 +12,18 @@
 #include "grid/vertex_lattice.h"
 #include "metric/error_metric.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// Heights of lattice points, from set() or else from their samples.
 class LatticeHeights {
  public:
-  explicit LatticeHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
+  explicit LatticeHeights(const grid::SampleView& samples) : samples_(samples), slots_(kFewest) {}
   void set(Point point, float height);
   /// Reserves memory for `count` points, so that set() need not rehash.
   void reserve(std::size_t count);
-  static bool is_sample(Point point) { return point.x % kLatticeSteps == 0 && point.y % kLatticeSteps == 0; }
+  static bool is_sample(Point point) {
+    return point.x % grid::kLatticeSteps == 0 && point.y % grid::kLatticeSteps == 0;
+  }
   /// REQUIRES: the point was set, or is a sample.
   float at(Point point) const {
     if (is_sample(point) && !has_samples_) return sample(point);
@@ -37,7 +39,9 @@ class LatticeHeights {
   };
   static constexpr std::size_t kFewest = 64;
 
-  float sample(Point point) const { return samples_.at({point.x / kLatticeSteps, point.y / kLatticeSteps}); }
+  float sample(Point point) const {
+    return samples_.at({point.x / grid::kLatticeSteps, point.y / grid::kLatticeSteps});
+  }
   static std::uint64_t key(Point point) {
     return (std::uint64_t{static_cast<std::uint32_t>(point.y)} << 32 | static_cast<std::uint32_t>(point.x)) + 1;
   }
@@ -48,7 +52,7 @@ class LatticeHeights {
     return slot;
   }
 
-  SampleView samples_;
+  grid::SampleView samples_;
   std::vector<Slot> slots_;
   std::size_t taken_ = 0;
   bool has_samples_ = false;  ///< true if set() changed heights of samples
@@ -59,13 +63,13 @@ class LatticeHeights {
 class LatticeMetric final : public ErrorMetric {
  public:
   /// `heights` and the bounds must outlive it.
-  LatticeMetric(const SampleView& samples, const LatticeHeights& heights, double threshold,
+  LatticeMetric(const grid::SampleView& samples, const LatticeHeights& heights, double threshold,
                 std::span<const float> bounds)
       : samples_(samples), heights_(heights), threshold_(threshold) {
-    if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
+    if (!bounds.empty()) bounds_ = grid::SampleView(grid::Raster{bounds.data(), samples.cols(), samples.rows()});
   }
   /// With individual bounds in the rows of `bounds`.
-  LatticeMetric(const SampleView& samples, const LatticeHeights& heights, const Band& bounds)
+  LatticeMetric(const grid::SampleView& samples, const LatticeHeights& heights, const grid::Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
@@ -78,13 +82,15 @@ class LatticeMetric final : public ErrorMetric {
   Fit fit_evenly(const std::array<Point, 3>& corners) const;
   Fit fit_by_bounds(const std::array<Point, 3>& corners) const;
   std::array<float, 3> heights_at(const std::array<Point, 3>& corners) const;
-  Plane plane_of(const std::array<Point, 3>& corners) const { return Plane::through(corners, heights_at(corners)); }
+  geom::Plane plane_of(const std::array<Point, 3>& corners) const {
+    return geom::Plane::through(corners, heights_at(corners));
+  }
   double importance(double error, double bound) const;
 
-  SampleView samples_;
+  grid::SampleView samples_;
   const LatticeHeights& heights_;
   double threshold_ = 0;
-  std::optional<SampleView> bounds_;
+  std::optional<grid::SampleView> bounds_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

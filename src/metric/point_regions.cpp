@@ -127,7 +127,7 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
   const std::vector<RegionPart> parts = parts_of(regions, falloff);
   const PartGrid grid(parts, points);
   if (found != nullptr) found->assign(regions.size(), false);
-  std::vector<float> tolerances(points.size(), round_down_to_float(beyond));
+  std::vector<float> tolerances(points.size(), metric::round_down_to_float(beyond));
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (const std::size_t part : grid.at(points.x[i], points.y[i])) {
       const std::size_t region = parts[part].region();
@@ -139,7 +139,8 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Poin
       const double away = parts[part].distance(points.x[i], points.y[i], std::min(most, falloff));
       if (away == kFar) continue;
       const double share = falloff > 0 ? std::min(1.0, away / falloff) : 0;
-      tolerances[i] = std::min(tolerances[i], round_down_to_float(share == 0 ? own : own + (beyond - own) * share));
+      tolerances[i] =
+          std::min(tolerances[i], metric::round_down_to_float(share == 0 ? own : own + (beyond - own) * share));
       if (found != nullptr && share < 1) (*found)[region] = true;
     }
   }

@@ -81,7 +81,7 @@ struct SampleWindow {
 class RegionSamples {
  public:
   /// REQUIRES: the region has runs.
-  RegionSamples(std::span<const SampleRun> runs, double tolerance, const RegionGrid& grid)
+  RegionSamples(std::span<const grid::SampleRun> runs, double tolerance, const RegionGrid& grid)
       : grid_(grid),
         columns_(runs, grid.cols),
         tolerance_(tolerance),
@@ -91,7 +91,7 @@ class RegionSamples {
     top_ = std::max(runs.front().row - up, 0);
     bottom_ = runs.back().row >= grid.rows - up ? grid.rows : runs.back().row + up + 1;
     left_ = grid.cols;
-    for (const SampleRun& run : runs) {
+    for (const grid::SampleRun& run : runs) {
       left_ = std::min(left_, run.begin);
       right_ = std::max(right_, run.end);
     }
@@ -99,7 +99,7 @@ class RegionSamples {
 
   std::uint64_t bytes() const { return columns_.bytes(); }
   std::uint64_t bytes_to_read() const {
-    return (Envelope::kBytes + sizeof(ColumnWalk)) * static_cast<std::uint64_t>(widest());
+    return (Envelope::kBytes + sizeof(grid::ColumnWalk)) * static_cast<std::uint64_t>(widest());
   }
 
   /// Lowers the bounds of samples in a window.
@@ -107,7 +107,7 @@ class RegionSamples {
     const std::int32_t first = std::max(window.row, top_), last = std::min(window.row + window.rows, bottom_);
     if (first >= last) return;
     Envelope envelope(widest(), grid_.cell_x);
-    std::vector<ColumnWalk> walks;
+    std::vector<grid::ColumnWalk> walks;
     walks.reserve(widest());
     const std::int32_t end = window.col + window.cols;
     // Without a falloff, columns are independent.
@@ -137,7 +137,7 @@ class RegionSamples {
         std::min<std::int64_t>(std::int64_t{stretch_} + 2 * std::int64_t{reach_}, grid_.cols));
   }
 
-  void lower_row(std::int32_t y, std::vector<ColumnWalk>& walks, const Stretch& at, Envelope& envelope,
+  void lower_row(std::int32_t y, std::vector<grid::ColumnWalk>& walks, const Stretch& at, Envelope& envelope,
                  float* bounds) const {
     envelope.clear();
     for (std::size_t k = 0; k < walks.size(); ++k) {
@@ -151,14 +151,15 @@ class RegionSamples {
       float& bound = bounds[at.left + k];
       const double away = std::sqrt(squared);
       if (away == 0)
-        bound = std::min(bound, round_down_to_float(tolerance_));
+        bound = std::min(bound, metric::round_down_to_float(tolerance_));
       else if (away < grid_.falloff)
-        bound = std::min(bound, round_down_to_float(tolerance_ + (beyond - tolerance_) * (away / grid_.falloff)));
+        bound =
+            std::min(bound, metric::round_down_to_float(tolerance_ + (beyond - tolerance_) * (away / grid_.falloff)));
     });
   }
 
   RegionGrid grid_;
-  ColumnRuns columns_;
+  grid::ColumnRuns columns_;
   double tolerance_;
   std::int32_t reach_, stretch_;   // along a row
   std::int32_t top_, bottom_;      // rows of samples that may be lowered
@@ -168,7 +169,7 @@ class RegionSamples {
 class RegionSource final : public SampleSource {
  public:
   RegionSource(std::vector<RegionSamples> regions, double beyond)
-      : regions_(std::move(regions)), beyond_(round_down_to_float(beyond)) {}
+      : regions_(std::move(regions)), beyond_(metric::round_down_to_float(beyond)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     for (int y = 0; y < rows; ++y) std::fill_n(out + y * stride, cols, beyond_);
@@ -189,7 +190,7 @@ RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGri
   std::uint64_t to_read = 0;
   std::vector<RegionSamples> found;
   for (const Region& region : regions) {
-    LineRuns runs(grid.affine, grid.cols, grid.rows);
+    grid::LineRuns runs(grid.affine, grid.cols, grid.rows);
     for (const Line& line : region.lines) runs.add_course(line);
     runs.add_polygons(region.lines);
     bounds.found.push_back(!runs.runs().empty());

@@ -5,7 +5,7 @@
 
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// The options of simplify(), or those of simplify_by_paper() with its strategy.
 struct Request : SimplifyOptions {
@@ -23,4 +23,4 @@ inline bool has_lines(const SimplifyOptions& options) {
   return options.features.have_lines() || !options.features.cutline.rings.empty();
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -14,7 +14,7 @@
 #include "metric/importance.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
@@ -52,21 +52,21 @@ double distance_from_corner(const std::array<Point, 3>& corners, Point p) {
 /// A plane for each field. The usual few fields need no allocation and no clearing of many planes.
 struct SampleMetric::Surface {
   static constexpr std::size_t kFew = 4;
-  std::array<Plane, kFew> few;
-  std::vector<Plane> more;
+  std::array<geom::Plane, kFew> few;
+  std::vector<geom::Plane> more;
   double guard = 0;
 
-  void add(std::size_t k, const Plane& plane) {
+  void add(std::size_t k, const geom::Plane& plane) {
     if (k < kFew) {
       few[k] = plane;
     } else {
       more.push_back(plane);
     }
   }
-  const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
+  const geom::Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
 };
 
-MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds) {
+MetricSettings settings_by_bounds(const grid::Raster& raster, std::span<const float> bounds) {
   MetricSettings settings{raster, {{raster.samples, 1}}};
   settings.bounds = bounds.data();
   settings.per_bound = true;
@@ -84,7 +84,7 @@ std::array<float, 3> SampleMetric::values_at(const MetricField& field, const std
 SampleMetric::Surface SampleMetric::surface(const std::array<Point, 3>& corners) const {
   Surface surface;
   for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
-    surface.add(k, Plane::through(corners, values_at(settings_.fields[k], corners)));
+    surface.add(k, geom::Plane::through(corners, values_at(settings_.fields[k], corners)));
     surface.guard += settings_.fields[k].scale * surface.plane(k).guard;
   }
   return surface;
@@ -94,7 +94,7 @@ void SampleMetric::combine_row(const Surface& surface, Point start, std::span<do
   const std::size_t index = index_of(start);
   std::fill(errors.begin(), errors.end(), 0.0);
   for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
-    const Plane& plane = surface.plane(k);
+    const geom::Plane& plane = surface.plane(k);
     const double row_height = plane.row_height(start.y), scale = settings_.fields[k].scale;
     const float* samples = settings_.fields[k].samples + index;
     const auto each = [&](auto&& add) {
@@ -140,7 +140,7 @@ Fit SampleMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& qu
   fit.guard = surface.guard;
   double doubtful = -1;
   std::array<double, kChunkSamples> errors;
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     for (std::int32_t begin = first; begin <= last; begin += kChunkSamples) {
@@ -177,7 +177,7 @@ void SampleMetric::refine_scores(const Surface& surface, const std::array<Point,
   const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
     double total = 0;
     for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
-      const Plane& plane = surface.plane(k);
+      const geom::Plane& plane = surface.plane(k);
       const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
       const double sample = interpolate(settings_.fields[k].samples, settings_.heights.cols, x, y, question.lattice);
       add_to_norm(settings_.norm, settings_.fields[k].scale * std::abs(height - sample), total);
@@ -201,7 +201,7 @@ void SampleMetric::refine_scores(const Surface& surface, const std::array<Point,
 bool SampleMetric::exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const {
   const double bound = bound_at(index);
   const auto field_exceeds = [&](const MetricField& field) {
-    return exceeds_exactly(corners, values_at(field, corners), p, field.samples[index], bound);
+    return geom::exceeds_exactly(corners, values_at(field, corners), p, field.samples[index], bound);
   };
   if (std::find(corners.begin(), corners.end(), p) != corners.end()) return false;
   if (bound == 0 || (settings_.fields.size() == 1 && settings_.fields[0].scale == 1))
@@ -214,7 +214,7 @@ std::optional<Candidate> SampleMetric::find_candidate(const std::array<Point, 3>
   if (fit.worst.error >= 0) worst = fit.worst;
   if (!fit.unsettled) return worst;
   const Surface surface = this->surface(corners);
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     for (std::int32_t x = first; x <= last; ++x) {
       const Point p{x, y};
       const std::size_t index = index_of(p);
@@ -248,8 +248,9 @@ double SampleMetric::squares_between(Point a, Point b) const {
 double SampleMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
   double sum = 0;
   for (const MetricField& field : settings_.fields)
-    sum += field.scale * bend_of(Plane::through(a, values_at(field, a)), Plane::through(b, values_at(field, b)));
+    sum += field.scale *
+           geom::bend_of(geom::Plane::through(a, values_at(field, a)), geom::Plane::through(b, values_at(field, b)));
   return sum;
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -11,7 +11,7 @@
 #include "metric/error_metric.h"
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// A field whose errors are combined. It is valid wherever the heights are valid.
 struct MetricField {
@@ -26,7 +26,7 @@ inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
 struct MetricSettings {
-  Raster heights;                   ///< determine which samples are valid
+  grid::Raster heights;             ///< determine which samples are valid
   std::vector<MetricField> fields;  ///< at least one
   Norm norm = Norm::kSum;
   double threshold = 0;            ///< bound of the combined error, if `bounds` is null
@@ -40,7 +40,7 @@ struct MetricSettings {
 };
 
 /// Settings for heights only, with individual bounds, ranked by error over bound.
-MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
+MetricSettings settings_by_bounds(const grid::Raster& raster, std::span<const float> bounds);
 
 /// With one field of scale 1, comparisons with bounds are exact. A norm of several fields is compared with a margin for
 /// its rounding, on the safe side, and exactly only for the bound 0. So a sample whose norm equals its bound may be
@@ -78,4 +78,4 @@ class SampleMetric final : public ErrorMetric {
   MetricSettings settings_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

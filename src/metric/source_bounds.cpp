@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
@@ -37,12 +37,12 @@ Result<void> SourceBounds::read_aims(Point first, std::int32_t cols, std::int32_
   return read(first, cols, rows, nullptr, aims, stride);
 }
 
-Result<void> SourceBounds::read_aims(std::int32_t first, const Raster& samples, float* aims) const {
+Result<void> SourceBounds::read_aims(std::int32_t first, const grid::Raster& samples, float* aims) const {
   return read({0, first}, samples.cols, samples.rows, &samples, aims, samples.cols);
 }
 
-Result<void> SourceBounds::read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
-                                std::ptrdiff_t stride) const {
+Result<void> SourceBounds::read(Point first, std::int32_t cols, std::int32_t rows, const grid::Raster* samples,
+                                float* aims, std::ptrdiff_t stride) const {
   if (has_values()) {
     SCARP_RETURN_IF_ERROR(source()->read(first.x, first.y, cols, rows, aims, stride));
   }
@@ -81,4 +81,4 @@ void SourceBounds::find_bounds(std::int32_t row, std::span<const float> values, 
                  [&](std::int32_t x) { bounds[static_cast<std::size_t>(x)] = kNoBound; });
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

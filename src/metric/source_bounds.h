@@ -14,7 +14,7 @@
 #include "scarp/options.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// True if streamed samples have individual bounds.
 bool has_source_bounds(const SimplifyOptions& options, bool is_streamed);
@@ -33,7 +33,7 @@ class SourceBounds {
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
   /// The same for whole rows of these samples, from `first` on. Also fails with kPromise if a requested bound is below
   /// its sample's rounding.
-  Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
+  Result<void> read_aims(std::int32_t first, const grid::Raster& samples, float* aims) const;
 
   /// Unprocessed tolerances or weights of rows. Fails if the source fails. REQUIRES: has_values().
   Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
@@ -46,7 +46,7 @@ class SourceBounds {
   bool has_most() const;
 
  private:
-  Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
+  Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const grid::Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
   const SampleSource* source() const { return weights_ != nullptr ? weights_ : tolerances_; }
   /// The requested bound of a sample with this tolerance or weight, unless it is ignored.
@@ -54,9 +54,9 @@ class SourceBounds {
 
   const SampleSource* tolerances_ = nullptr;
   const SampleSource* weights_ = nullptr;
-  PointRows ignored_;
+  grid::PointRows ignored_;
   double most_, factor_ = 1;
   BoundRule rule_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

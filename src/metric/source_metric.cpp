@@ -10,12 +10,12 @@
 #include "metric/height_metric.h"
 #include "metric/sample_metric.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 namespace {
 
 void or_throw(const Result<void>& read) {
-  if (!read) throw SourceFailure{read.error()};
+  if (!read) throw grid::SourceFailure{read.error()};
 }
 
 /// The samples around some points, the samples' bounds, and the points relative to the window.
@@ -30,8 +30,8 @@ class Window {
     }
     const std::int32_t cols = last.x - first_.x + 1, rows = last.y - first_.y + 1;
     samples_.resize(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
-    or_throw(read_window(field, first_.x, first_.y, cols, rows, samples_.data(), cols));
-    const Raster raster{samples_.data(), cols, rows};
+    or_throw(grid::read_window(field, first_.x, first_.y, cols, rows, samples_.data(), cols));
+    const grid::Raster raster{samples_.data(), cols, rows};
     if (bounds == nullptr) {
       metric_ = std::make_unique<HeightMetric>(raster, threshold);
       return;
@@ -83,4 +83,4 @@ double SourceMetric::bend(const std::array<Point, 3>& a, const std::array<Point,
   return window.metric().bend(window.inside(a), window.inside(b));
 }
 
-}  // namespace scarp
+}  // namespace scarp::metric

@@ -5,7 +5,7 @@
 #include "metric/source_bounds.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::metric {
 
 /// Equals HeightMetric, bit for bit, or SampleMetric if samples have individual bounds. Suits only few queries, because
 /// each query reads a window of the source around a triangle. Throws SourceFailure if a source fails.
@@ -27,4 +27,4 @@ class SourceMetric final : public ErrorMetric {
   const SourceBounds* bounds_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::metric

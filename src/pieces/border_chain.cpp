@@ -9,7 +9,7 @@
 #include "geom/exact_error.h"
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -30,7 +30,7 @@ void split_chord(const std::vector<float>& heights, std::int32_t first, std::int
       const double error = std::abs(from + rise * ((i - a) / steps) - double{at(i)}), threshold = bound.at(i);
       const double guard = guard_of_chord + 0x1p-50 * threshold, rank = bound.rank(error, threshold);
       if (!(rank > worst) || error < threshold - guard || std::isinf(threshold)) continue;
-      if (error <= threshold + guard && !exceeds_exactly_between(at(a), at(b), i - a, b - a, at(i), threshold))
+      if (error <= threshold + guard && !geom::exceeds_exactly_between(at(a), at(b), i - a, b - a, at(i), threshold))
         continue;
       worst = rank;
       split = i;
@@ -61,8 +61,9 @@ Result<Strip> read_strip(const HeightField& field, const BorderLine& line) {
   const std::int32_t first = std::max(across - 1, 0), lines = std::min(across + 1, most) - first + 1;
   std::vector<float> window(count * static_cast<std::size_t>(lines));
   SCARP_RETURN_IF_ERROR(
-      line.is_vertical ? read_window(field, first, line.row, lines, line.steps + 1, window.data(), lines)
-                       : read_window(field, line.col, first, line.steps + 1, lines, window.data(), line.steps + 1));
+      line.is_vertical
+          ? grid::read_window(field, first, line.row, lines, line.steps + 1, window.data(), lines)
+          : grid::read_window(field, line.col, first, line.steps + 1, lines, window.data(), line.steps + 1));
   for (std::size_t i = 0; i < count; ++i) {
     for (std::int32_t k = 0; k < lines; ++k) {
       const auto j = static_cast<std::size_t>(k);
@@ -134,4 +135,4 @@ Result<std::vector<std::int32_t>> split_border(const HeightField& field, const B
   return more;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -11,7 +11,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// A straight run of samples: from (col, row), `steps` steps to the right or down.
 struct BorderLine {
@@ -53,4 +53,4 @@ struct BorderRun {
 /// Splits the whole line into such runs. Fails if the field's source fails.
 Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const BorderLine& line);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::pieces {
 
 Result<void> Budget::check(const MeshSize& least, const std::string& culprit, const std::string& advice) const {
   const auto refuse = [&](std::uint64_t budget, const char* one, const char* many, std::uint64_t needed) {
@@ -34,4 +34,4 @@ double Budget::used(const MeshSize& size) const {
   return std::max(share(size.vertices, max_vertices_), share(size.triangles, max_triangles_));
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -8,7 +8,7 @@
 #include "scarp/options.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;
@@ -39,4 +39,4 @@ struct Prefix {
   double error = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

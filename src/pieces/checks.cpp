@@ -14,7 +14,7 @@
 #include "scarp/features.h"
 #include "shape/shape_refinement.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -34,7 +34,7 @@ const char* name_lines(const SimplifyOptions& options) {
 Result<void> check_border(const HeightField& field, const SimplifyOptions& options) {
   const Border& border = options.domain.border;
   if (!border.is_locked) return {};
-  if (!options.goals.max_error && !has_tolerances(options))
+  if (!options.goals.max_error && !metric::has_tolerances(options))
     return usage("a locked border needs a max error: a budget finds another one for each raster");
   const std::optional<double>& error = border.max_error;
   if (error && !(*error >= 0 && *error <= options.goals.max_error.value_or(HUGE_VAL) && std::isfinite(*error)))
@@ -61,10 +61,10 @@ Result<void> check_border(const HeightField& field, const SimplifyOptions& optio
 Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
   const auto& a = field.frame.affine;
   SCARP_RETURN_IF_ERROR(check_shape_goals(shape, std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]))));
-  if (shape.any() && std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
+  if (shape.any() && std::max(field.cols, field.rows) > kMaxCoordinate / grid::kLatticeSteps)
     return usage(
         fmt::format("a raster of {} x {} samples is too large for goals of angles and edges: at most {} a side",
-                    field.cols, field.rows, kMaxCoordinate / kLatticeSteps));
+                    field.cols, field.rows, kMaxCoordinate / grid::kLatticeSteps));
   return {};
 }
 
@@ -97,15 +97,15 @@ Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& op
 }
 
 Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_error_for_all = options.goals.max_error || has_budget(options);
+  const bool has_error_for_all = options.goals.max_error || metric::has_budget(options);
   if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
     return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
   SCARP_RETURN_IF_ERROR(check_border(field, options));
-  if (options.goals.objective == Objective::kRms && !has_budget(options))
+  if (options.goals.objective == Objective::kRms && !metric::has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
   if (options.quality.vertices == Vertices::kFree && !traits_of(options.quality.effort).moves_vertices)
     return usage("free vertices need high effort or more: leave them on samples");
-  if (has_lines(options) && !has_error_for_all)
+  if (metric::has_lines(options) && !has_error_for_all)
     return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
   if (options.quality.shape.any() && !has_error_for_all)
     return usage("a mesh with goals for angles and edges needs a max error or a budget");
@@ -140,7 +140,7 @@ Result<void> check_max_error(const std::optional<double>& max_error) {
 
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
   const Goals& goals = options.goals;
-  if (!goals.max_error && !goals.max_triangles && !goals.max_vertices && !has_tolerances(options))
+  if (!goals.max_error && !goals.max_triangles && !goals.max_vertices && !metric::has_tolerances(options))
     return usage("no goal given: set max_error, max_triangles, max_vertices or tolerance");
   SCARP_RETURN_IF_ERROR(check_max_error(goals.max_error));
   SCARP_RETURN_IF_ERROR(check_places(field));
@@ -161,7 +161,7 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   for (const auto check : {check_values, check_conflicts, check_needs}) {
     SCARP_RETURN_IF_ERROR(check(field, options));
   }
-  return check_size(field);
+  return grid::check_size(field);
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

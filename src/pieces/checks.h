@@ -6,7 +6,7 @@
 #include "scarp/options.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Fails with kUsage for goals that are missing or out of range, and with kPromise for a max error below the samples'
 /// rounding.
@@ -22,4 +22,4 @@ Result<void> check_shape_goals(const ShapeGoals& shape, double spacing);
 /// Fails unless the value is absent or a number of at least 0.
 Result<void> check_max_error(const std::optional<double>& max_error);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

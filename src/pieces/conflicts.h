@@ -13,7 +13,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// A setting: a field of SimplifyOptions that differs from its default (one setting per value if values conflict
 /// differently), a property of a HeightField, or a setting of tiles.
@@ -146,6 +146,6 @@ std::string describe(const Conflict& conflict, Word&& word) {
 }
 std::string describe(const Conflict& conflict);
 
-}  // namespace scarp
+}  // namespace scarp::pieces
 
 #pragma GCC visibility pop

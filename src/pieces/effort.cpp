@@ -1,12 +1,12 @@
 #include "pieces/effort.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 const EffortTraits& traits_of(Effort effort) {
   static constexpr EffortTraits kFast{};
-  static constexpr EffortTraits kNormal{true, false, false, kNormalDepth, 2};
-  static constexpr EffortTraits kHigh{true, true, false, kHighDepth, 6, Effort::kNormal};
-  static constexpr EffortTraits kMax{true, true, true, kMaxDepth, 60, Effort::kHigh};
+  static constexpr EffortTraits kNormal{true, false, false, fit::kNormalDepth, 2};
+  static constexpr EffortTraits kHigh{true, true, false, fit::kHighDepth, 6, Effort::kNormal};
+  static constexpr EffortTraits kMax{true, true, true, fit::kMaxDepth, 60, Effort::kHigh};
   switch (effort) {
     case Effort::kNormal:
       return kNormal;
@@ -21,4 +21,4 @@ const EffortTraits& traits_of(Effort effort) {
   return kFast;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -16,7 +16,7 @@
 #include "metric/criterion.h"
 #include "pieces/recipe.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// One of the four edges, from west to east or from north to south.
 struct LockedBorder::Edge {
@@ -34,7 +34,7 @@ namespace {
 struct Chord {
   std::int32_t a, b;
 
-  double value_at(std::span<const float> values, std::int32_t i) const { return chord_value(values, a, b, i); }
+  double value_at(std::span<const float> values, std::int32_t i) const { return grid::chord_value(values, a, b, i); }
   /// True if the sample's exact distance from the chord exceeds the bound.
   bool misses(std::span<const float> values, std::int32_t i, double bound) const {
     const float from = values[static_cast<std::size_t>(a)], to = values[static_cast<std::size_t>(b)];
@@ -42,7 +42,7 @@ struct Chord {
     const double error = std::abs(value_at(values, i) - double{value});
     const double rounding = 0x1p-50 * (std::abs(double{from}) + std::abs(double{to}));
     if (std::abs(error - bound) > rounding) return error > bound;
-    return exceeds_exactly_between(from, to, i - a, b - a, value, bound);
+    return geom::exceeds_exactly_between(from, to, i - a, b - a, value, bound);
   }
 };
 
@@ -66,7 +66,7 @@ bool is_segment(std::span<const float> heights, std::int32_t a, std::int32_t b) 
 }  // namespace
 
 Result<LockedBorder> LockedBorder::make(const HeightField& field, const SimplifyOptions& options,
-                                        const Raster& raster) {
+                                        const grid::Raster& raster) {
   LockedBorder border;
   border.cols_ = raster.cols;
   border.rows_ = raster.rows;
@@ -85,7 +85,7 @@ Result<LockedBorder> LockedBorder::make(const HeightField& field, const Simplify
 }
 
 Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const SimplifyOptions& options,
-                               const Raster& raster) {
+                               const grid::Raster& raster) {
   const Border& asked = options.domain.border;
   const auto count = static_cast<std::size_t>(edge.count);
   std::vector<float> heights;
@@ -98,15 +98,15 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
     const Point p = edge.at(i);
     heights.push_back(raster.at(p));
     for (std::size_t k = 0; k < channels.size(); ++k) channels[k].push_back(field.channels[k].samples[index_of(p)]);
-    const double bound = asked_bound(options, asked.max_error, p, raster.cols);
-    bounds.push_back(std::isinf(bound) ? bound : tightened(bound, field.sample_rounding));
+    const double bound = metric::asked_bound(options, asked.max_error, p, raster.cols);
+    bounds.push_back(std::isinf(bound) ? bound : metric::tightened(bound, field.sample_rounding));
   }
-  std::vector<EdgeField> fields{{heights, field.height_scale}};
+  std::vector<grid::EdgeField> fields{{heights, field.height_scale}};
   for (std::size_t k = 0; k < channels.size(); ++k) fields.push_back({channels[k], field.channels[k].scale});
   const auto misses = [&](const Chord& chord, std::int32_t i) {
     const double bound = bounds[static_cast<std::size_t>(i)];
     if (!has_norm(field)) return chord.misses(heights, i, bound);
-    return chord_error(fields, options.goals.norm, chord.a, chord.b, i) > bound;
+    return grid::chord_error(fields, options.goals.norm, chord.a, chord.b, i) > bound;
   };
   std::vector<std::int32_t> vertices;
   if (asked.vertices) {
@@ -120,7 +120,7 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
     }
     vertices = complete(given, heights);
   } else {
-    vertices = simplify_edge(fields, options.goals.norm, 0, bounds);
+    vertices = grid::simplify_edge(fields, options.goals.norm, 0, bounds);
   }
   vertices_.reserve(vertices_.size() + vertices.size());
   for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -131,7 +131,7 @@ Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const
       if (asked.vertices && misses(chord, i))
         return fail(ErrorKind::kUsage, fmt::format("the border's {} edge misses sample ({}, {}) by {}, more than {}",
                                                    edge.name, edge.at(i).x, edge.at(i).y,
-                                                   chord_error(fields, options.goals.norm, chord.a, chord.b, i),
+                                                   grid::chord_error(fields, options.goals.norm, chord.a, chord.b, i),
                                                    bounds[static_cast<std::size_t>(i)]));
       const auto move = [&](std::span<const float> values, std::vector<float>& samples) {
         const double line = chord.value_at(values, i);
@@ -170,10 +170,10 @@ Result<void> LockedBorder::check(std::span<const Point> points, std::int32_t ste
   return {};
 }
 
-std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& raster, std::int32_t steps) {
+std::vector<Point> find_side_vertices(const tin::Triangulation& tin, const grid::Raster& raster, std::int32_t steps) {
   const std::int32_t right = (raster.cols - 1) * steps, bottom = (raster.rows - 1) * steps;
   std::vector<Point> points;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+  for (tin::Vertex v = 0; v < tin.vertex_count(); ++v) {
     const Point p = tin.point(v);
     const bool is_on_row = p.y == 0 || p.y == bottom, is_on_column = p.x == 0 || p.x == right;
     if (is_on_row != is_on_column) points.push_back(p);
@@ -182,4 +182,4 @@ std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& ra
   return points;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -49,8 +49,8 @@ class NormalMap {
 
   Picture picture;
 
-  void add(const RowRange& rows, int y) {
-    const std::vector<float> normals = row_normals(rows, field_, y);
+  void add(const grid::RowRange& rows, int y) {
+    const std::vector<float> normals = pieces::row_normals(rows, field_, y);
     const Share row = share_of(y, field_.rows, picture.height);
     for (; row_ < row.pixel; ++row_) finish_row();
     for (int x = 0; x < field_.cols; ++x) {
@@ -97,7 +97,7 @@ Result<Picture> draw_normal_map(const HeightField& field, int side) try {
         std::max<std::int64_t>(1, (2 * std::int64_t{samples} * most + longer) / (2 * std::int64_t{longer})));
   };
   NormalMap map(field, pixels(field.cols), pixels(field.rows));
-  const auto swept = sweep_rows(field, 1, [&](const RowRange& rows) -> Result<void> {
+  const auto swept = grid::sweep_rows(field, 1, [&](const grid::RowRange& rows) -> Result<void> {
     for (int y = rows.begin; y < rows.end; ++y) map.add(rows, y);
     return {};
   });

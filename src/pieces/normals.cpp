@@ -11,12 +11,12 @@
 #include "grid/source_failure.h"
 #include "pieces/offset_map.h"
 
-namespace scarp {
+namespace scarp::pieces {
 namespace {
 
 /// Samples currently in memory, of a raster with `rows` rows.
 struct Surroundings {
-  const RowRange& held;
+  const grid::RowRange& held;
   std::int32_t rows;
   const Border& border;
 
@@ -184,7 +184,7 @@ std::vector<float> sample_normals(const HeightField& field, const LatticePoints&
   std::vector<std::uint32_t> order;
   std::vector<Point> points;
   std::size_t next = 0;
-  const auto swept = sweep_rows(field, kReach, [&](const RowRange& rows) -> Result<void> {
+  const auto swept = grid::sweep_rows(field, kReach, [&](const grid::RowRange& rows) -> Result<void> {
     const Surroundings heights{rows, field.rows, border};
     if (rows.begin == 0 && rows.end == field.rows) {
       normals = normals_at(heights, field.frame, at.steps, at.points);
@@ -202,15 +202,15 @@ std::vector<float> sample_normals(const HeightField& field, const LatticePoints&
     for (std::size_t k = 0; k < here.size(); ++k) normals[3 * order[first + k / 3] + k % 3] = here[k];
     return {};
   });
-  if (!swept) throw SourceFailure{swept.error()};
+  if (!swept) throw grid::SourceFailure{swept.error()};
   return normals;
 }
 
-std::vector<float> row_normals(const RowRange& rows, const HeightField& field, std::int32_t y) {
+std::vector<float> row_normals(const grid::RowRange& rows, const HeightField& field, std::int32_t y) {
   std::vector<Point> samples;
   for (std::int32_t x = 0; x < field.cols; ++x) samples.push_back({x, y});
   const Border free;
   return normals_at_samples({rows, field.rows, free}, field.frame, samples);
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -9,7 +9,7 @@
 #include "scarp/height_field.h"
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Unit normals of the full-resolution surface in the frame, 3 values per point, z > 0. At samples: from central
 /// differences, or from one-sided differences next to nodata and borders. Between samples: the bilinear mean of the
@@ -18,6 +18,6 @@ namespace scarp {
 std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at, const Border& border = {});
 
 /// Normals of the samples of row y in [begin, end); NaN at nodata. `rows` also covers the adjacent rows.
-std::vector<float> row_normals(const RowRange& rows, const HeightField& field, std::int32_t y);
+std::vector<float> row_normals(const grid::RowRange& rows, const HeightField& field, std::int32_t y);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

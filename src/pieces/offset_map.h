@@ -10,7 +10,7 @@
 #include "base/point.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Number of points mapped at a time.
 inline constexpr std::size_t kChunkVertices = 4096;
@@ -66,4 +66,4 @@ class OffsetMap {
   std::array<double, 3> origin_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -14,7 +14,7 @@
 #include "scarp/result.h"
 #include "scarp/run.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Seeds the mesh of a piece with neighbours: its domain, with only the outline's vertices. Without surface cells, all
 /// triangles are outside. Edges along shared rows are not constrained, since the domain ends there only if the
@@ -32,11 +32,12 @@ struct ConstraintGoals {
 /// triangles that break the bound: around the edges if the piece is already refined, else everywhere. Afterwards, the
 /// lattice has kLatticeSteps. Adds to `work`. Fails if ConstrainedMesh::insert() or piece.check fails, and with kInput
 /// for too many triangles.
-Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
+Result<void> insert_constraints(Piece& piece, const lines::ConstraintGraph& graph, const ConstraintGoals& goals,
+                                Work& work);
 
 /// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many
 /// triangles, and if piece.check fails. REQUIRES: `metric` measures the piece's samples.
-Result<void> refine(Piece& piece, const ErrorMetric& metric, Work& work);
+Result<void> refine(Piece& piece, const metric::ErrorMetric& metric, Work& work);
 
 /// The result of a fit.
 struct FitOutcome {
@@ -46,7 +47,7 @@ struct FitOutcome {
 
 /// Removes and moves vertices while every sample satisfies the aim of refinement. Vertices on shared rows are fixed.
 /// Fails if fit() fails.
-Result<FitOutcome> fit_piece(Piece& piece, FitOptions options);
+Result<FitOutcome> fit_piece(Piece& piece, fit::FitOptions options);
 
 inline constexpr const char* kTooManyTriangles =
     "the mesh would have more than 1,431 million triangles: allow a larger error";
@@ -54,4 +55,4 @@ inline constexpr const char* kTooManyTriangles =
 /// Bytes per vertex for constraints and refinement of a piece, including its mesh.
 inline constexpr std::uint64_t kRefinementBytesPerVertex = 160;
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -16,15 +16,15 @@
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 struct Piece {
-  Raster samples;                             ///< NaN is nodata
+  grid::Raster samples;                       ///< NaN is nodata
   std::int32_t first = 0;                     ///< row of its first samples in the raster
-  Triangulation tin;                          ///< in the piece's own coordinates
+  tin::Triangulation tin;                     ///< in the piece's own coordinates
   bool has_above = false, has_below = false;  ///< a neighbour there has the same vertices on the shared row
-  Raster around = {};                         ///< `samples`, and one more row towards each neighbour
-  VertexLattice lattice = {};                 ///< lattice of the vertices of `tin`
+  grid::Raster around = {};                   ///< `samples`, and one more row towards each neighbour
+  grid::VertexLattice lattice = {};           ///< lattice of the vertices of `tin`
   /// The aim of refinement by sample; EMPTY: the run's threshold everywhere.
   std::span<const float> aims = {};
   /// True if each sample satisfies the aim of refinement.
@@ -36,4 +36,4 @@ struct Piece {
   std::function<Result<void>(std::uint64_t vertices, double share, double error)> check = {};
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

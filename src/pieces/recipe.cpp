@@ -11,7 +11,7 @@
 #include "pieces/conflicts.h"
 #include "shape/shape_refinement.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -30,11 +30,11 @@ int choose_threads(const HeightField& field, int asked, Effort effort) {
   return asked == 0 && !traits_of(effort).moves_vertices && is_small ? 1 : asked;
 }
 
-bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_goal = options.goals.max_error || has_tolerances(options);
-  if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
+bool may_be_dominant(const HeightField& field, const SimplifyOptions& options, bool has_own_bounds) {
+  const bool has_goal = options.goals.max_error || metric::has_tolerances(options);
+  if (!has_goal || metric::has_budget(options) || options.quality.order == Order::kGreedy) return false;
   // If bounds differ, inserting the worst sample of the whole raster first needs fewer triangles.
-  if (options.quality.order == Order::kAuto && has_own_bounds(options, field.samples == nullptr)) return false;
+  if (options.quality.order == Order::kAuto && has_own_bounds) return false;
   // A raster with a locked border is refined as one tile, which may begin with points.
   const auto of_order = [&](const Conflict& conflict) {
     return conflict.one == Field::kOrderDominant &&
@@ -118,8 +118,8 @@ MemoryBudget memory_budget(const Recipe& recipe) {
   const SimplifyOptions& options = recipe.options;
   const bool has_shapes = options.quality.shape.any();
   const bool is_fitted_whole = recipe.fits && (!recipe.is_streamed || has_shapes);
-  const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
-  const std::uint64_t shape = has_shapes ? kShapeBytesPerVertex : 0;
+  const std::uint64_t fit = is_fitted_whole ? fit::kFitBytesPerVertex + fit::kFitBytesPerVertexAndThread : 0;
+  const std::uint64_t shape = has_shapes ? shape::kShapeBytesPerVertex : 0;
   const std::uint64_t normals = options.output.normals ? 3 * sizeof(float) : 0;
   return {options.run.memory.limit, options.run.memory.taken,
           std::max({kProof + normals, kMesh + normals + options.run.memory.per_vertex, fit, shape})};
@@ -135,26 +135,26 @@ Question either(const Question& first, const Question& second) {
 /// A short edge is worth any number of trials.
 constexpr double kAnyPatience = 100;
 
-FitOptions fit_options(const Recipe& recipe) {
+fit::FitOptions fit_options(const Recipe& recipe) {
   // With vertices on samples, a floor costs up to 10 % more triangles, possibly more than normal effort.
   constexpr double kUsualShape = 0.1;
   const SimplifyOptions& options = recipe.options;
   const Frame& frame = recipe.field.frame;
   const auto& a = frame.affine;
-  FitOptions fit;
+  fit::FitOptions fit;
   if (frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = recipe.frees_vertices;
   fit.depth = recipe.traits.depth;
   // If two vertices are too close, both are usually needed, but one vertex between them may suffice.
   if (options.quality.shape.min_edge && recipe.traits.moves_vertices) {
-    fit.depth.repair = kMaxDepth.repair;
+    fit.depth.repair = fit::kMaxDepth.repair;
     fit.depth.repair.patience = kAnyPatience;
   }
   fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.floor_yields = !options.quality.min_shape;
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
   if (options.quality.shape.any()) {
-    fit.shape = shape_rule(options.quality.shape, frame);
+    fit.shape = shape::shape_rule(options.quality.shape, frame);
     fit.floor_yields = false;
   }
   if (!recipe.has_budget) fit.is_time_up = either(options.run.is_time_up, options.run.is_enough);
@@ -164,8 +164,8 @@ FitOptions fit_options(const Recipe& recipe) {
 
 }  // namespace
 
-Request settle_request(const HeightField& field, const SimplifyOptions& asked) {
-  Request request = asked;
+metric::Request settle_request(const HeightField& field, const SimplifyOptions& asked) {
+  metric::Request request = asked;
   request.chose_effort = asked.quality.effort == Effort::kAuto;
   request.quality.effort = choose_effort(field, asked);
   if (has_norm(field)) request.quality.vertices = Vertices::kSamples;
@@ -175,17 +175,18 @@ Request settle_request(const HeightField& field, const SimplifyOptions& asked) {
   return request;
 }
 
-Recipe::Recipe(const HeightField& given, const Request& asked, const Scale& by)
+Recipe::Recipe(const HeightField& given, const metric::Request& asked, const Scale& by)
     : field(given),
       options(asked),
       scale(by),
       effort(by.refines_only ? Effort::kFast : asked.quality.effort),
       traits(traits_of(effort)),
       is_streamed(given.samples == nullptr),
-      has_budget(scarp::has_budget(asked)),
-      has_lines(scarp::has_lines(asked)),
-      has_source_bounds(scarp::has_source_bounds(asked, is_streamed)),
-      is_dominant(may_be_dominant(given, asked)),
+      has_budget(metric::has_budget(asked)),
+      has_lines(metric::has_lines(asked)),
+      has_source_bounds(metric::has_source_bounds(asked, is_streamed)),
+      has_own_bounds(metric::has_own_bounds(asked, is_streamed)),
+      is_dominant(may_be_dominant(given, asked, has_own_bounds)),
       route(asked.domain.border.is_locked ? Route::kLocked
             : is_dominant                 ? Route::kTiles
                                           : Route::kGreedy),
@@ -198,15 +199,14 @@ Recipe::Recipe(const HeightField& given, const Request& asked, const Scale& by)
       releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
       // With shape goals, redundant vertices of tile borders must be removed from strips at every effort.
       fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
-      removes_last(asked.quality.shape.any() && shape_rule(asked.quality.shape, given.frame)),
+      removes_last(asked.quality.shape.any() && shape::shape_rule(asked.quality.shape, given.frame)),
       fits_strips(is_streamed && fits_pieces),
       finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),
-      reads_beyond(asked.output.normals || !given.frame.is_affine() || fits || has_lines ||
-                   has_own_bounds(asked, is_streamed)),
+      reads_beyond(asked.output.normals || !given.frame.is_affine() || fits || has_lines || has_own_bounds),
       rounds_offsets(asked.output.float32_positions && !(asked.output.lattice && rows_run_along_x(given.frame))),
       height_step(choose_height_step(given, asked)),
-      lattice_steps(has_lines || asked.quality.shape.any() ? kLatticeSteps
-                    : frees_vertices                       ? kLatticeSteps / kFreeStep
+      lattice_steps(has_lines || asked.quality.shape.any() ? grid::kLatticeSteps
+                    : frees_vertices                       ? grid::kLatticeSteps / grid::kFreeStep
                                                            : 1),
       is_exact(lattice_is_exact(given, rounds_offsets, lattice_steps)),
       is_exact_on_samples(lattice_is_exact(given, rounds_offsets, 1)),
@@ -220,4 +220,4 @@ Recipe Recipe::on(const HeightField& prepared) const {
   return recipe;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -12,14 +12,14 @@
 #include "pieces/effort.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// The parameters of a run that a search sets, in addition to the options.
 struct Scale {
   double factor = 1;      ///< factor of all tolerances
   double line_error = 0;  ///< max error of lines that follow the raster, if the options have no max error
   double start = 1;       ///< share of every bound that refinement uses; fitting uses the whole bound
-  std::optional<SquareGoal> squares = std::nullopt;  ///< goal of fitting. DEFAULT: few triangles
+  std::optional<fit::SquareGoal> squares = std::nullopt;  ///< goal of fitting. DEFAULT: few triangles
   /// Only the size of a mesh above this budget matters: the mesh is neither ordered nor proven.
   std::optional<Budget> room = std::nullopt;
   bool refines_only = false;  ///< fast effort, whatever the options request
@@ -44,17 +44,17 @@ inline bool has_norm(const HeightField& field) { return !field.channels.empty() 
 
 /// The options as simplify() executes them. Effort, threads and the border's max error are chosen if absent; vertices
 /// are on samples if errors are norms. REQUIRES: checked options.
-Request settle_request(const HeightField& field, const SimplifyOptions& asked);
+metric::Request settle_request(const HeightField& field, const SimplifyOptions& asked);
 
 /// The decisions for one run. Borrows the field's samples and the options.
 struct Recipe {
   /// REQUIRES: checked options with a chosen effort.
-  Recipe(const HeightField& field, const Request& options, const Scale& scale = {});
+  Recipe(const HeightField& field, const metric::Request& options, const Scale& scale = {});
   /// The same recipe for a field whose heights were changed by lines.
   Recipe on(const HeightField& prepared) const;
 
   HeightField field;
-  const Request& options;
+  const metric::Request& options;
   Scale scale;
   Effort effort;           ///< never kAuto
   EffortTraits traits;     ///< the work of that effort
@@ -62,6 +62,7 @@ struct Recipe {
   bool has_budget;         ///< for triangles or vertices
   bool has_lines;          ///< constraints of some kind
   bool has_source_bounds;  ///< streamed samples have bounds of their own
+  bool has_own_bounds;     ///< samples in memory have bounds of their own
   bool is_dominant;        ///< the dominant order can reach the goals
   Route route;
   /// True if insertion can stop at a budget. It cannot if there are lines, which depend on the error, nor strip by
@@ -86,7 +87,7 @@ struct Recipe {
   /// errors.
   double aim;
   MemoryBudget memory;  ///< bytes per vertex at the peak: proof, writing, or fitting as a whole
-  FitOptions fit;       ///< without threshold, norm, samples' bounds, threads and progress
+  fit::FitOptions fit;  ///< without threshold, norm, samples' bounds, threads and progress
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -19,30 +19,31 @@ struct EdgeVerdict {
   std::uint64_t samples = 0, triangles = 0;
 };
 
-EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, HalfEdge h) {
+EdgeVerdict assess_edge(const tin::Triangulation& tin, const metric::ErrorMetric& metric, tin::HalfEdge h) {
   EdgeVerdict verdict;
   if (tin.is_outside(h / 3)) return verdict;
-  const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
-  const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
-  const Point d = corner(Triangulation::previous(tin.twin(h)));
+  const auto corner = [&](tin::HalfEdge g) { return tin.point(tin.origin(g)); };
+  const Point a = corner(h), b = corner(tin::Triangulation::next(h)), c = corner(tin::Triangulation::previous(h));
+  const Point d = corner(tin::Triangulation::previous(tin.twin(h)));
   // An error so far above the goal breaks the bound despite rounding; a false alarm would only keep the edge.
-  FitQuestion question;
+  metric::FitQuestion question;
   if (metric.goal() > 0) question.give_up_max = 1.001 * metric.goal();
   const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
-    const Fit fit = metric.fit(corners, question);
+    const metric::Fit fit = metric.fit(corners, question);
     verdict.samples += fit.scanned;
     ++verdict.triangles;
     return fit.complete && !metric.find_candidate(corners, fit);
   };
-  verdict.flips = in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a});
+  verdict.flips = geom::in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a});
   return verdict;
 }
 
 /// The Delaunay rule where the bound allows it. Verdicts computed in advance are valid until one of an edge's triangles
 /// changes.
-class CarefulRule final : public FlipRule {
+class CarefulRule final : public tin::FlipRule {
  public:
-  CarefulRule(const Triangulation& tin, const ErrorMetric& metric, const std::vector<HalfEdge>& edges, int threads)
+  CarefulRule(const tin::Triangulation& tin, const metric::ErrorMetric& metric, const std::vector<tin::HalfEdge>& edges,
+              int threads)
       : metric_(metric) {
     constexpr std::size_t kChunk = 64;
     std::vector<EdgeVerdict> verdicts(edges.size());
@@ -56,8 +57,8 @@ class CarefulRule final : public FlipRule {
     }
   }
 
-  bool should_flip(const Triangulation& tin, HalfEdge h) override {
-    const Triangle t = h / 3, u = tin.twin(h) / 3;
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override {
+    const tin::Triangle t = h / 3, u = tin.twin(h) / 3;
     const auto known = verdicts_.find(h);
     bool flips = false;
     if (known != verdicts_.end() && !changed_.contains(t) && !changed_.contains(u)) {
@@ -78,18 +79,19 @@ class CarefulRule final : public FlipRule {
     work_.triangles_scanned += verdict.triangles;
   }
 
-  const ErrorMetric& metric_;
-  std::unordered_map<HalfEdge, bool> verdicts_;
-  std::unordered_set<Triangle> changed_;
+  const metric::ErrorMetric& metric_;
+  std::unordered_map<tin::HalfEdge, bool> verdicts_;
+  std::unordered_set<tin::Triangle> changed_;
   Work work_;
 };
 
 }  // namespace
 
-Work release_seams(Triangulation& tin, const ErrorMetric& metric, std::vector<HalfEdge> seams, int threads) {
+Work release_seams(tin::Triangulation& tin, const metric::ErrorMetric& metric, std::vector<tin::HalfEdge> seams,
+                   int threads) {
   CarefulRule rule(tin, metric, seams, threads);
   tin.improve(seams, rule, SIZE_MAX);
   return rule.work();
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

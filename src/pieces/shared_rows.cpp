@@ -12,14 +12,14 @@
 #include "pieces/border_chain.h"
 #include "pieces/tiling.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
 /// Samples that are vertices, strictly within a row, ascending.
 std::vector<std::int32_t> vertices_along(const Piece& strip, std::int32_t y) {
   std::vector<std::int32_t> cols;
-  for (Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
+  for (tin::Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
     const Point p = strip.tin.point(v);
     if (p.y == y && p.x > 0 && p.x < strip.samples.cols - 1) cols.push_back(p.x);
   }
@@ -55,21 +55,22 @@ void sort_along(std::vector<BorderVertex>& vertices) {
 }
 
 /// Vertices of lines on a row of the part.
-std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_t y, const float* samples) {
+std::vector<BorderVertex> line_vertices(const lines::ConstraintGraph& part, std::int32_t y, const float* samples) {
   std::vector<BorderVertex> vertices;
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const Point p = part.points[i];
-    if (p.y != y * kLatticeSteps) continue;
-    const bool is_sample = LatticeHeights::is_sample(p);
-    vertices.push_back({p.x, is_sample ? samples[p.x / kLatticeSteps] : part.heights[i], true});
+    if (p.y != y * grid::kLatticeSteps) continue;
+    const bool is_sample = metric::LatticeHeights::is_sample(p);
+    vertices.push_back({p.x, is_sample ? samples[p.x / grid::kLatticeSteps] : part.heights[i], true});
   }
   return vertices;
 }
 
 /// Turns samples of a row into vertices of both strips that share it.
-void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples, ConstraintGraph& part) {
+void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples,
+                   lines::ConstraintGraph& part) {
   for (const std::int32_t col : cols) {
-    part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});
+    part.points.push_back({col * grid::kLatticeSteps, y * grid::kLatticeSteps});
     part.heights.push_back(samples[col]);
     part.is_shared.push_back(1);
   }
@@ -87,22 +88,23 @@ void split_border_chord(const float* samples, const BorderVertex& from, const Bo
     const double guard_of_chord = 0x1p-50 * (std::abs(double{a.height}) + std::abs(rise));
     double worst = -1;
     std::int32_t split = -1;
-    for (std::int32_t col = a.x / kLatticeSteps + 1; col * kLatticeSteps < b.x; ++col) {
+    for (std::int32_t col = a.x / grid::kLatticeSteps + 1; col * grid::kLatticeSteps < b.x; ++col) {
       const float height = samples[col];
       if (std::isnan(height)) continue;
-      const double error = std::abs(a.height + rise * ((col * kLatticeSteps - a.x) / steps) - double{height});
+      const double error = std::abs(a.height + rise * ((col * grid::kLatticeSteps - a.x) / steps) - double{height});
       const double threshold = bound.at(col), rank = bound.rank(error, threshold);
       const double guard = guard_of_chord + 0x1p-50 * threshold;
       if (!(rank > worst) || error < threshold - guard || std::isinf(threshold)) continue;
       if (error <= threshold + guard &&
-          !exceeds_exactly_between(a.height, b.height, col * kLatticeSteps - a.x, b.x - a.x, height, threshold))
+          !geom::exceeds_exactly_between(a.height, b.height, col * grid::kLatticeSteps - a.x, b.x - a.x, height,
+                                         threshold))
         continue;
       worst = rank;
       split = col;
     }
     if (split < 0) continue;
     kept.push_back(split);
-    const BorderVertex middle{split * kLatticeSteps, samples[split], false};
+    const BorderVertex middle{split * grid::kLatticeSteps, samples[split], false};
     chords.push_back({middle, b});
     chords.push_back({a, middle});
   }
@@ -110,14 +112,14 @@ void split_border_chord(const float* samples, const BorderVertex& from, const Bo
 
 }  // namespace
 
-void split_shared_row(const Piece& strip, bool is_top, double threshold, ConstraintGraph& part) {
+void split_shared_row(const Piece& strip, bool is_top, double threshold, lines::ConstraintGraph& part) {
   const std::int32_t y = is_top ? 0 : strip.samples.rows - 1;
   const float* samples = strip.samples.row(y);
   std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
   if (vertices.empty() && strip.aims.empty()) return;
-  for (Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
+  for (tin::Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
     const Point p = strip.tin.point(v);
-    if (p.y == y) vertices.push_back({p.x * kLatticeSteps, samples[p.x], false});
+    if (p.y == y) vertices.push_back({p.x * grid::kLatticeSteps, samples[p.x], false});
   }
   sort_along(vertices);
   std::vector<std::int32_t> kept;
@@ -129,7 +131,7 @@ void split_shared_row(const Piece& strip, bool is_top, double threshold, Constra
 }
 
 Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold, std::int32_t side,
-                              ConstraintGraph& part) {
+                              lines::ConstraintGraph& part) {
   const std::int32_t y = is_top ? 0 : strip.samples.rows - 1, around = y + (strip.has_above ? 1 : 0);
   const float* samples = strip.samples.row(y);
   const HeightField field{strip.around.samples, strip.around.cols, strip.around.rows};
@@ -139,14 +141,14 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
     // The adjacent strip may consist of tiles.
     const Tiling tiling(field.cols, field.rows, side);
     for (std::size_t tile = 0; tile < tiling.per_row(); ++tile) {
-      const TileWindow window = tiling.window(tile);
+      const refine::TileWindow window = tiling.window(tile);
       SCARP_TRY(const auto& chain, simplify_border(field, {window.col, around, window.cols - 1, false}, threshold));
       if (tile > 0) kept.push_back(window.col);
       for (const std::int32_t step : chain) kept.push_back(window.col + step);
     }
     if (!strip.aims.empty()) {
-      vertices = {{0, samples[0], false}, {(field.cols - 1) * kLatticeSteps, samples[field.cols - 1], false}};
-      for (const std::int32_t col : kept) vertices.push_back({col * kLatticeSteps, samples[col], false});
+      vertices = {{0, samples[0], false}, {(field.cols - 1) * grid::kLatticeSteps, samples[field.cols - 1], false}};
+      for (const std::int32_t col : kept) vertices.push_back({col * grid::kLatticeSteps, samples[col], false});
       sort_along(vertices);
       for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
         split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
@@ -156,22 +158,22 @@ Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold,
   }
   SCARP_TRY(const auto& runs, find_border_runs(field, {0, around, field.cols - 1, false}));
   for (const BorderRun& run : runs) {
-    vertices.push_back({run.begin * kLatticeSteps, samples[run.begin], false});
+    vertices.push_back({run.begin * grid::kLatticeSteps, samples[run.begin], false});
     if (run.begin > 0) kept.push_back(run.begin);
   }
-  vertices.push_back({runs.back().end * kLatticeSteps, samples[runs.back().end], false});
+  vertices.push_back({runs.back().end * grid::kLatticeSteps, samples[runs.back().end], false});
   sort_along(vertices);
   auto run = runs.begin();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-    while (run->end * kLatticeSteps <= vertices[i].x) ++run;
+    while (run->end * grid::kLatticeSteps <= vertices[i].x) ++run;
     if (run->has_surface)
       split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
   }
   // Each point of the part occurs once.
   std::erase_if(kept, [&](std::int32_t col) {
-    const auto at = std::lower_bound(vertices.begin(), vertices.end(), col * kLatticeSteps,
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), col * grid::kLatticeSteps,
                                      [](const BorderVertex& v, std::int32_t x) { return v.x < x; });
-    return at != vertices.end() && at->x == col * kLatticeSteps && at->is_of_line;
+    return at != vertices.end() && at->x == col * grid::kLatticeSteps && at->is_of_line;
   });
   share_samples(kept, y, samples, part);
   return {};
@@ -199,4 +201,4 @@ void settle_shared_rows(const Piece& strip, std::span<float> aims) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -6,7 +6,7 @@
 #include "grid/source_failure.h"
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::uint64_t bytes_per_sample(bool has_bounds) { return (has_bounds ? 2 : 1) * 
 
 }  // namespace
 
-std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds) {
+std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, const metric::SourceBounds* bounds) {
   std::int32_t rows = kMostRows;
   const auto bytes = [&] {
     return bytes_per_sample(bounds != nullptr) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(rows);
@@ -27,22 +27,22 @@ std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory, 
   return rows;
 }
 
-std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const SourceBounds* bounds) {
+std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory, const metric::SourceBounds* bounds) {
   const std::int32_t rows = std::min(rows_at_once(field, memory, bounds), field.rows);
   return bytes_per_sample(bounds != nullptr) * static_cast<std::uint64_t>(field.cols) *
          static_cast<std::uint64_t>(rows);
 }
 
-void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptions& options,
-                  const SourceBounds* bounds) {
-  options.read = [&field](const Patch::Window& window, float* to, std::ptrdiff_t stride) {
-    const auto read = read_window(field, window.first.x, window.first.y, window.cols, window.rows, to, stride);
-    if (!read) throw SourceFailure{read.error()};
+void read_windows(const HeightField& field, const MemoryBudget& memory, fit::FitOptions& options,
+                  const metric::SourceBounds* bounds) {
+  options.read = [&field](const fit::Patch::Window& window, float* to, std::ptrdiff_t stride) {
+    const auto read = grid::read_window(field, window.first.x, window.first.y, window.cols, window.rows, to, stride);
+    if (!read) throw grid::SourceFailure{read.error()};
   };
   if (bounds != nullptr)
-    options.read_bounds = [bounds](const Patch::Window& window, float* to, std::ptrdiff_t stride) {
+    options.read_bounds = [bounds](const fit::Patch::Window& window, float* to, std::ptrdiff_t stride) {
       const auto read = bounds->read_aims(window.first, window.cols, window.rows, to, stride);
-      if (!read) throw SourceFailure{read.error()};
+      if (!read) throw grid::SourceFailure{read.error()};
     };
   if (!memory.is_limited()) return;
   options.most_window =
@@ -50,8 +50,8 @@ void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptio
   options.most_side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(options.most_window))) / kSidesPerWindow;
 }
 
-std::uint64_t window_bytes(const FitOptions& options) {
+std::uint64_t window_bytes(const fit::FitOptions& options) {
   return bytes_per_sample(options.read_bounds != nullptr) * static_cast<std::uint64_t>(options.most_window);
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -7,7 +7,7 @@
 #include "base/sort.h"
 #include "grid/vertex_lattice.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -36,7 +36,7 @@ const Ends& as_ends(const Ends& edge) { return edge; }
 
 }  // namespace
 
-StripLines::StripLines(const ConstraintGraph& graph)
+StripLines::StripLines(const lines::ConstraintGraph& graph)
     : graph_(graph), points_(graph.points.size()), edges_(graph.edges.size()) {
   std::iota(points_.begin(), points_.end(), 0u);
   sort_rarely(points_, [&](std::uint32_t a, std::uint32_t b) { return before(graph_.points[a], graph_.points[b]); });
@@ -55,17 +55,18 @@ StripLines::StripLines(const ConstraintGraph& graph)
 /// True if lines have points on rows of samples, both included.
 bool StripLines::has_points(std::int32_t top, std::int32_t bottom) const {
   const auto first = std::partition_point(points_.begin(), points_.end(),
-                                          [&](auto p) { return graph_.points[p].y < top * kLatticeSteps; });
-  return first != points_.end() && graph_.points[*first].y <= bottom * kLatticeSteps;
+                                          [&](auto p) { return graph_.points[p].y < top * grid::kLatticeSteps; });
+  return first != points_.end() && graph_.points[*first].y <= bottom * grid::kLatticeSteps;
 }
 
 bool StripLines::makes_whole(std::int32_t first, std::int32_t rows) const {
   return graph_.is_inserted_first && has_points(first, first + rows - 1);
 }
 
-ConstraintGraph StripLines::part_of(const Piece& strip) const {
-  const std::int32_t top = strip.first * kLatticeSteps, bottom = top + (strip.samples.rows - 1) * kLatticeSteps;
-  ConstraintGraph part;
+lines::ConstraintGraph StripLines::part_of(const Piece& strip) const {
+  const std::int32_t top = strip.first * grid::kLatticeSteps,
+                     bottom = top + (strip.samples.rows - 1) * grid::kLatticeSteps;
+  lines::ConstraintGraph part;
   std::vector<std::uint32_t> numbers;  // indices of points_[first + k]
   const auto row_of = [&](std::uint32_t point) { return graph_.points[point].y; };
   const auto first = std::partition_point(points_.begin(), points_.end(), [&](auto p) { return row_of(p) < top; });
@@ -96,11 +97,11 @@ ConstraintGraph StripLines::part_of(const Piece& strip) const {
   return part;
 }
 
-std::optional<SurfaceCut> StripLines::part_of_cut(std::int32_t first, std::int32_t rows,
-                                                  FunctionRef<std::uint32_t(std::uint32_t)> number_of) const {
+std::optional<lines::SurfaceCut> StripLines::part_of_cut(std::int32_t first, std::int32_t rows,
+                                                         FunctionRef<std::uint32_t(std::uint32_t)> number_of) const {
   if (!graph_.cut) return std::nullopt;
-  const std::int32_t top = first * kLatticeSteps, bottom = top + (rows - 1) * kLatticeSteps;
-  SurfaceCut part;
+  const std::int32_t top = first * grid::kLatticeSteps, bottom = top + (rows - 1) * grid::kLatticeSteps;
+  lines::SurfaceCut part;
   part.rows = graph_.cut->rows;
   part.first = first;
   visit_within(
@@ -117,4 +118,4 @@ std::optional<SurfaceCut> StripLines::part_of_cut(std::int32_t first, std::int32
   return part;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -19,28 +19,28 @@
 #include "lines/constraints.h"
 #include "pieces/piece.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 class StripLines {
  public:
   /// `graph`: of the whole raster, with edges split at the rows that strips share. Borrowed.
-  explicit StripLines(const ConstraintGraph& graph);
+  explicit StripLines(const lines::ConstraintGraph& graph);
 
   /// True for rows of samples where lines are inserted before the surface is refined.
   bool makes_whole(std::int32_t first, std::int32_t rows) const;
   /// The strip's part of the graph, in the strip's coordinates, with all points on shared rows.
-  ConstraintGraph part_of(const Piece& strip) const;
+  lines::ConstraintGraph part_of(const Piece& strip) const;
 
  private:
   bool has_points(std::int32_t top, std::int32_t bottom) const;
-  std::optional<SurfaceCut> part_of_cut(std::int32_t first, std::int32_t rows,
-                                        FunctionRef<std::uint32_t(std::uint32_t)> number_of) const;
+  std::optional<lines::SurfaceCut> part_of_cut(std::int32_t first, std::int32_t rows,
+                                               FunctionRef<std::uint32_t(std::uint32_t)> number_of) const;
 
-  const ConstraintGraph& graph_;
+  const lines::ConstraintGraph& graph_;
   std::vector<std::uint32_t> points_;                // points of the graph, from the top down
   std::vector<std::uint32_t> edges_;                 // sorted by their upper ends, as walls_ is
   std::vector<std::array<std::uint32_t, 2>> walls_;  // walls of its cut
   std::vector<std::array<Point, 2>> outline_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

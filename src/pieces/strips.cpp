@@ -14,7 +14,7 @@
 #include "pieces/shared_rows.h"
 #include "pieces/strip_lines.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -22,10 +22,12 @@ namespace {
 constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 
 /// True if the raster fits the lattice, which all strips share.
-bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
+bool has_room(const HeightField& field) {
+  return std::max(field.cols, field.rows) <= kMaxCoordinate / grid::kLatticeSteps;
+}
 
-FitOptions strip_fit(const Recipe& recipe, double threshold) {
-  FitOptions fit = recipe.fit;
+fit::FitOptions strip_fit(const Recipe& recipe, double threshold) {
+  fit::FitOptions fit = recipe.fit;
   fit.threshold = threshold;
   fit.threads = recipe.options.run.threads;
   fit.vertices_are_free = fit.vertices_are_free && has_room(recipe.field);
@@ -40,8 +42,8 @@ FitOptions strip_fit(const Recipe& recipe, double threshold) {
 /// Runs the passes strip by strip.
 class StripWork {
  public:
-  StripWork(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
-            std::int32_t side, StripTotals& totals)
+  StripWork(const Recipe& recipe, const lines::ConstraintGraph* lines, const metric::SourceBounds* bounds,
+            double threshold, std::int32_t side, StripTotals& totals)
       : bounds_(bounds),
         goals_{threshold, recipe.fits_pieces && recipe.releases_starts, recipe.options.run.threads},
         side_(side),
@@ -82,7 +84,7 @@ class StripWork {
   }
 
   Result<void> insert_lines(Piece& strip, bool is_whole) {
-    ConstraintGraph part = lines_->part_of(strip);
+    lines::ConstraintGraph part = lines_->part_of(strip);
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
       if (!is_whole) {
@@ -94,7 +96,7 @@ class StripWork {
     settle_shared_rows(strip, aims_);
     SCARP_RETURN_IF_ERROR(insert_constraints(strip, part, goals_, totals_.lines));
     has_surface_ = has_surface_ || strip.has_surface;
-    if (!has_surface_ && !strip.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
+    if (!has_surface_ && !strip.has_below) return fail(ErrorKind::kInput, lines::kNothingInCutline);
     return {};
   }
 
@@ -105,12 +107,13 @@ class StripWork {
       SCARP_RETURN_IF_ERROR(insert_shared_row(strip, is_top, is_whole));
     }
     settle_shared_rows(strip, aims_);
-    return refine(strip, SampleMetric(settings_by_bounds(strip.samples, strip.aims)), totals_.refinement);
+    return refine(strip, metric::SampleMetric(metric::settings_by_bounds(strip.samples, strip.aims)),
+                  totals_.refinement);
   }
 
   Result<void> fit(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {
     const auto start = Clock::now();
-    FitOptions options = *fit_;
+    fit::FitOptions options = *fit_;
     if (progress) options.progress = [&](double, std::uint64_t vertices) { return progress(0, vertices); };
     SCARP_TRY(const auto& fitted, fit_piece(strip, std::move(options)));
     totals_.seconds_of_fit += seconds_since(start);
@@ -119,10 +122,10 @@ class StripWork {
     return {};
   }
 
-  const SourceBounds* bounds_;
+  const metric::SourceBounds* bounds_;
   ConstraintGoals goals_;
   std::int32_t side_;
-  std::optional<FitOptions> fit_;
+  std::optional<fit::FitOptions> fit_;
   std::optional<StripLines> lines_;
   std::vector<float> aims_;   // aims of the current strip
   bool has_surface_ = false;  // true if any strip so far has a surface within the cutline
@@ -131,10 +134,11 @@ class StripWork {
 
 }  // namespace
 
-void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
-                    StripTotals& totals, TiledOptions& tiles) {
+void work_by_strips(const Recipe& recipe, const lines::ConstraintGraph* lines, const metric::SourceBounds* bounds,
+                    double threshold, StripTotals& totals, TiledOptions& tiles) {
   const auto threads = static_cast<std::uint64_t>(thread_count(recipe.options.run.threads));
-  if (recipe.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
+  if (recipe.fits_pieces)
+    tiles.finish_bytes_per_vertex = fit::kFitBytesPerVertex + fit::kFitBytesPerVertexAndThread * threads;
   if (bounds != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
   if (bounds != nullptr || lines != nullptr)
     tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRefinementBytesPerVertex);
@@ -152,4 +156,4 @@ std::int32_t strip_side(const Recipe& recipe) {
   return streamed_side(recipe.field, tiles);
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -13,7 +13,7 @@
 #include "pieces/recipe.h"
 #include "pieces/tiled.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Totals of the passes over strips so far.
 struct StripTotals {
@@ -27,10 +27,10 @@ struct StripTotals {
 /// Makes refine_tiled() run the recipe's passes on each strip, and adds to `totals`. `lines`: constraints (null: none).
 /// `bounds`: of samples (null: the threshold applies to all). Effort kMax ignores the time limit, because the first
 /// strip would use it up. Progress is reported through the current `tiles.progress`. Borrows all arguments.
-void work_by_strips(const Recipe& recipe, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
-                    StripTotals& totals, TiledOptions& tiles);
+void work_by_strips(const Recipe& recipe, const lines::ConstraintGraph* lines, const metric::SourceBounds* bounds,
+                    double threshold, StripTotals& totals, TiledOptions& tiles);
 
 /// The side of tiles in such a run, which decides where strips meet and lines are split.
 std::int32_t strip_side(const Recipe& recipe);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -46,4 +46,4 @@ void TileRoom::commit(std::size_t vertices) {
   });
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -7,7 +7,7 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Divides the memory that the mesh does not use among the active tiles. The share of a new tile depends on the others.
 /// A single tile gets all free memory.
@@ -36,4 +36,4 @@ class TileRoom {
   Shared<State> state_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

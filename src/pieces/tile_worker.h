@@ -15,12 +15,12 @@
 #include "tin/assembly.h"
 #include "tin/tile_mesh.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// The result of a tile.
 struct TileOutcome {
   Result<void> status;
-  TilePiece piece;
+  tin::TilePiece piece;
   std::vector<float> heights;  ///< heights of the piece's points, if the field has a source
   Work work;
   bool is_unsuited = false;    ///< magnitudes of heights differ too much for exact arithmetic
@@ -36,8 +36,8 @@ class TileWorker {
  public:
   /// Refines one tile until every sample lies within `threshold`; independent of earlier tiles. `density`: the expected
   /// density of the whole mesh; 0 if unknown. `most`: limit of added vertices.
-  TileOutcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
-                     double density, std::size_t most);
+  TileOutcome refine(const HeightField& field, const refine::TileWindow& window, const refine::SharedSides& shared,
+                     double threshold, double density, std::size_t most);
 
   /// Refines a whole field as one tile that starts with the given vertices; no other vertices are added on its sides. A
   /// field with nodata is also unsuited. REQUIRES: sides of at most kMaxTileSide samples, whose samples break no bound.
@@ -45,19 +45,20 @@ class TileWorker {
                            double threshold, std::size_t most);
 
  private:
-  bool is_suited() const { return tile_.largest_height() <= kMaxScanHeight; }
+  bool is_suited() const { return tile_.largest_height() <= geom::kMaxScanHeight; }
   /// Starts from the border and the vertices inside. REQUIRES: the tile is loaded.
-  TileOutcome refine_loaded(const HeightField& field, const TileWindow& window, const SharedSides& shared,
-                            double threshold, double density, std::size_t most, std::span<const Point> inside);
-  Result<void> find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,
-                           double threshold);
+  TileOutcome refine_loaded(const HeightField& field, const refine::TileWindow& window,
+                            const refine::SharedSides& shared, double threshold, double density, std::size_t most,
+                            std::span<const Point> inside);
+  Result<void> find_border(const HeightField& field, const refine::TileWindow& window,
+                           const refine::SharedSides& shared, double threshold);
 
-  Tile tile_;
-  TileMesh mesh_;
-  CoarseStart coarse_;
-  PieceMaker pieces_;
-  std::vector<TilePoint> border_;
+  refine::Tile tile_;
+  tin::TileMesh mesh_;
+  refine::CoarseStart coarse_;
+  tin::PieceMaker pieces_;
+  std::vector<geom::TilePoint> border_;
   std::int64_t steps_ = 0;  // along the shared sides
 };
 
-}  // namespace scarp
+}  // namespace scarp::pieces

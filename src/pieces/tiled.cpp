@@ -12,7 +12,7 @@
 #include "pieces/tiling.h"
 #include "tin/assembly.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -38,7 +38,7 @@ Result<double> estimate_density(const HeightField& field, double threshold, int 
   std::vector<Border> borders(tiling.count());
   parallel_for(tiling.count(), threads, [&](std::size_t i) {
     Border& border = borders[i];
-    const SharedSides shared = tiling.shared(i);
+    const refine::SharedSides shared = tiling.shared(i);
     for (const BorderLine& line :
          shared_lines(tiling.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
       const auto chain = simplify_border(field, line, threshold);
@@ -61,9 +61,9 @@ Result<double> estimate_density(const HeightField& field, double threshold, int 
 }
 
 /// Number of vertices in no triangle of the domain.
-std::uint32_t count_unused(const Triangulation& tin) {
+std::uint32_t count_unused(const tin::Triangulation& tin) {
   std::vector<bool> is_used(tin.vertex_count(), false);
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (!tin.is_outside(h / 3)) is_used[tin.origin(h)] = true;
   }
   return static_cast<std::uint32_t>(std::count(is_used.begin(), is_used.end(), false));
@@ -87,7 +87,7 @@ class StripSource final : public SampleSource {
   }
   bool is_in_memory() const override { return true; }
   /// A view of loaded rows.
-  Raster raster(std::int32_t row, std::int32_t rows) const {
+  grid::Raster raster(std::int32_t row, std::int32_t rows) const {
     return {band_.raster().row(row - band_.first()), field_.cols, rows};
   }
   HeightField view() const {
@@ -98,7 +98,7 @@ class StripSource final : public SampleSource {
 
  private:
   const HeightField& field_;
-  Band band_;
+  grid::Band band_;
 };
 
 /// True if strips are read and finished sequentially.
@@ -120,7 +120,7 @@ std::uint64_t strip_bytes(const HeightField& field, const Tiling& tiling) {
 
 /// Bytes of a thread's buffers and of waiting finished tiles, without vertices: about twice the samples of a tile.
 std::uint64_t worker_bytes(const Tiling& tiling) {
-  const TileWindow window = tiling.window(0);
+  const refine::TileWindow window = tiling.window(0);
   return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
 }
 
@@ -149,7 +149,7 @@ class TiledRun {
     SCARP_RETURN_IF_ERROR(options_.memory.check_start(base_bytes_));
     for (std::size_t first = 0; first < tiling_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
-      const TileWindow window = tiling_.window(first);
+      const refine::TileWindow window = tiling_.window(first);
       const bool is_made_whole = options_.is_made_whole && options_.is_made_whole(window.row, window.rows);
       if (status_ && !is_made_whole) refine(first, step_);
       if (status_ && !is_unsuited_ && options_.finish_strip)
@@ -160,8 +160,8 @@ class TiledRun {
     if (is_unsuited_) return std::optional<Tiled>();
     const bool is_whole = assembly_.is_whole();
     if (!fixed_.empty()) fixed_.resize(static_cast<std::size_t>(assembly_.vertex_count()), 0);
-    std::vector<HalfEdge> seams;
-    DomainMesh domain{assembly_.finish(seams), is_whole};
+    std::vector<tin::HalfEdge> seams;
+    refine::DomainMesh domain{assembly_.finish(seams), is_whole};
     if (!is_whole) domain.unused = count_unused(domain.tin);
     if (domain.unused == domain.tin.vertex_count())
       return fail(
@@ -174,7 +174,7 @@ class TiledRun {
  private:
   /// Includes the row above and the row below, since borders examine cells on both sides.
   Result<void> load_rows(std::size_t tile) {
-    const TileWindow window = tiling_.window(tile);
+    const refine::TileWindow window = tiling_.window(tile);
     const std::int32_t first = std::max(window.row - 1, 0);
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
@@ -221,7 +221,7 @@ class TiledRun {
                         each = TileRoom::bytes_per_vertex(memory);
     const std::uint64_t taken = std::min(memory.rest(), base_bytes_ + before * memory.per_vertex);
     const std::uint64_t most = (memory.rest() - taken) / each + 1;
-    const TileWindow window = tiling_.window(tile);
+    const refine::TileWindow window = tiling_.window(tile);
     const double samples = static_cast<double>(window.cols) * window.rows;
     const double expected = static_cast<double>(before) + std::min(samples, 4 * static_cast<double>(most));
     const double share = static_cast<double>(before + most) / expected * static_cast<double>(tile + 1) /
@@ -233,7 +233,7 @@ class TiledRun {
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;
-    if (assembly_.triangle_count() + strip_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+    if (assembly_.triangle_count() + strip_.triangle_count() + outcome.piece.outside.size() > tin::kNone / 3 - 2) {
       status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
       return false;
     }
@@ -262,27 +262,28 @@ class TiledRun {
   }
 
   /// `share`: the finished share of all tiles after this strip.
-  Result<void> finish_strip(const TileWindow& window, bool is_made_whole, double share) {
-    const Raster samples = band_.raster(window.row, window.rows);
+  Result<void> finish_strip(const refine::TileWindow& window, bool is_made_whole, double share) {
+    const grid::Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
-    std::vector<HalfEdge> seams;
-    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : strip_.finish(seams),
-                has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
+    std::vector<tin::HalfEdge> seams;
+    Piece strip{
+        samples,   window.row, is_made_whole ? tin::Triangulation(samples.cols, samples.rows) : strip_.finish(seams),
+        has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
     strip.check = [this, share](std::uint64_t vertices, double, double) -> Result<void> {
       const std::uint64_t all = assembly_.vertex_count() + vertices;
       if (options_.progress && !options_.progress(share, all))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
     };
-    strip_ = Assembly(tiling_.per_row());
+    strip_ = tin::Assembly(tiling_.per_row());
     SCARP_RETURN_IF_ERROR(options_.finish_strip(strip));
-    const Triangulation& tin = strip.tin;
-    const VertexLattice& lattice = strip.lattice;
+    const tin::Triangulation& tin = strip.tin;
+    const grid::VertexLattice& lattice = strip.lattice;
     assert(window.row == 0 || lattice.steps == steps_);
     steps_ = lattice.steps;
     assembly_.append(tin, {0, window.row * steps_}, (samples.cols - 1) * steps_ + 1, (samples.rows - 1) * steps_ + 1);
     std::vector<float> heights = lattice.heights;
-    for (Vertex v = 0; lattice.are_samples() && v < tin.vertex_count(); ++v)
+    for (tin::Vertex v = 0; lattice.are_samples() && v < tin.vertex_count(); ++v)
       heights.push_back(samples.at(tin.point(v)));
     keep_heights(heights);
     keep_fixed(lattice.fixed);
@@ -314,8 +315,8 @@ class TiledRun {
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
-  Assembly assembly_;  // assembly of tiles, or of finished strips
-  Assembly strip_;     // assembly of tiles of the current strip
+  tin::Assembly assembly_;  // assembly of tiles, or of finished strips
+  tin::Assembly strip_;     // assembly of tiles of the current strip
   std::vector<float> heights_;
   std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;
@@ -359,9 +360,9 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   return TiledRun(field, options, Tiling(field.cols, field.rows, side), density).execute();
 }
 
-Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
+Result<std::optional<Tiled>> refine_alone(const grid::Raster& raster, std::span<const Point> on_sides,
                                           std::span<const Point> inside, const TiledOptions& options) {
-  if (std::max(raster.cols, raster.rows) > kMaxTileSide) return std::optional<Tiled>();
+  if (std::max(raster.cols, raster.rows) > geom::kMaxTileSide) return std::optional<Tiled>();
   HeightField field;
   field.samples = raster.samples;
   field.cols = raster.cols;
@@ -379,11 +380,11 @@ Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const 
   const std::uint64_t vertices = outcome.is_broken_off ? most + 1 : outcome.piece.points.size();
   const std::uint64_t more = outcome.is_broken_off ? room : 0;
   SCARP_RETURN_IF_ERROR(memory.check_mesh(bytes + more, vertices, 1));
-  Assembly assembly(1);
+  tin::Assembly assembly(1);
   assembly.append(outcome.piece);
-  std::vector<HalfEdge> seams;
-  DomainMesh domain{assembly.finish(seams), true};
+  std::vector<tin::HalfEdge> seams;
+  refine::DomainMesh domain{assembly.finish(seams), true};
   return std::optional<Tiled>(Tiled{std::move(domain), {}, {}, 1, {}, outcome.work});
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -30,7 +30,7 @@
 #include "scarp/result.h"
 #include "scarp/run.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 struct TiledOptions {
   double threshold = 0;
@@ -55,10 +55,10 @@ struct TiledOptions {
 };
 
 struct Tiled {
-  DomainMesh domain;
-  std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
-  std::vector<float> heights;   ///< heights of the vertices, if strips were finished or the field has a source
-  std::int32_t steps = 1;       ///< lattice steps between two samples
+  refine::DomainMesh domain;
+  std::vector<tin::HalfEdge> seams;  ///< edges between tiles, for release_seams()
+  std::vector<float> heights;        ///< heights of the vertices, if strips were finished or the field has a source
+  std::int32_t steps = 1;            ///< lattice steps between two samples
   /// For each vertex: 1 if fixed while its strip was finished; EMPTY: none is.
   std::vector<std::uint8_t> fixed = {};
   Work work;
@@ -77,7 +77,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
 
 /// Refines a raster in memory as one tile with a locked border: starts with the given vertices and adds none on the
 /// sides. Also returns none for nodata or a raster too large for one tile. Uses the options' threshold and memory.
-Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
+Result<std::optional<Tiled>> refine_alone(const grid::Raster& raster, std::span<const Point> on_sides,
                                           std::span<const Point> inside, const TiledOptions& options);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

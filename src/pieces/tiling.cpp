@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -18,17 +18,17 @@ std::vector<std::int32_t> cut(std::int32_t samples, std::int32_t side) {
 
 Tiling::Tiling(std::int32_t cols, std::int32_t rows, std::int32_t side) : x_(cut(cols, side)), y_(cut(rows, side)) {}
 
-TileWindow Tiling::window(std::size_t tile) const {
+refine::TileWindow Tiling::window(std::size_t tile) const {
   const std::size_t i = tile % per_row(), j = tile / per_row();
   return {x_[i], y_[j], x_[i + 1] - x_[i] + 1, y_[j + 1] - y_[j] + 1};
 }
 
-SharedSides Tiling::shared(std::size_t tile) const {
+refine::SharedSides Tiling::shared(std::size_t tile) const {
   const std::size_t i = tile % per_row(), j = tile / per_row();
   return {i > 0, j > 0, i + 1 < per_row(), j + 1 < per_column()};
 }
 
-std::vector<BorderLine> shared_lines(const TileWindow& window, const SharedSides& shared) {
+std::vector<BorderLine> shared_lines(const refine::TileWindow& window, const refine::SharedSides& shared) {
   const std::int32_t last_col = window.col + window.cols - 1, last_row = window.row + window.rows - 1;
   std::vector<BorderLine> lines;
   if (shared.left) lines.push_back({window.col, window.row, window.rows - 1, true});
@@ -38,4 +38,4 @@ std::vector<BorderLine> shared_lines(const TileWindow& window, const SharedSides
   return lines;
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

@@ -8,7 +8,7 @@
 #include "refine/tile.h"
 #include "refine/tile_scanner.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 /// Tiles of nearly equal sides.
 class Tiling {
@@ -20,14 +20,14 @@ class Tiling {
   std::size_t per_column() const { return y_.size() - 1; }
   std::size_t count() const { return per_row() * per_column(); }
   /// Tiles are numbered row by row.
-  TileWindow window(std::size_t tile) const;
-  SharedSides shared(std::size_t tile) const;
+  refine::TileWindow window(std::size_t tile) const;
+  refine::SharedSides shared(std::size_t tile) const;
 
  private:
   std::vector<std::int32_t> x_, y_;
 };
 
 /// The sides of a window that are shared, as lines of the raster.
-std::vector<BorderLine> shared_lines(const TileWindow& window, const SharedSides& shared);
+std::vector<BorderLine> shared_lines(const refine::TileWindow& window, const refine::SharedSides& shared);
 
-}  // namespace scarp
+}  // namespace scarp::pieces

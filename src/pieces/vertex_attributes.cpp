@@ -4,7 +4,7 @@
 
 #include "pieces/normals.h"
 
-namespace scarp {
+namespace scarp::pieces {
 
 namespace {
 
@@ -22,11 +22,11 @@ std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const Lattic
 
 }  // namespace
 
-bool has_attributes(const HeightField& field, const Request& options) {
+bool has_attributes(const HeightField& field, const metric::Request& options) {
   return options.output.normals || options.output.uvs || !field.channels.empty();
 }
 
-void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh) {
+void add_attributes(const HeightField& field, const metric::Request& options, const LatticePoints& at, Mesh& mesh) {
   if (options.output.normals) mesh.normals = sample_normals(field, at, options.domain.border);
   if (options.output.uvs) mesh.uvs = sample_uvs(field.cols, field.rows, at);
   mesh.channel_count = static_cast<int>(field.channels.size());
@@ -37,4 +37,4 @@ void add_attributes(const HeightField& field, const Request& options, const Latt
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::pieces

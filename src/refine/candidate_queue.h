@@ -9,7 +9,7 @@
 #include "base/array.h"
 #include "metric/candidate.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// Finds the triangle with the worst candidate.
 class CandidateStore {
@@ -18,11 +18,11 @@ class CandidateStore {
   virtual bool empty() const = 0;
   /// The triangle whose candidate is the worst. REQUIRES: !empty().
   virtual std::uint32_t worst() const = 0;
-  virtual Candidate candidate(std::uint32_t id) const = 0;
+  virtual metric::Candidate candidate(std::uint32_t id) const = 0;
   /// Ids below `count` may be used from now on; new triangles have no candidate.
   virtual void grow(std::size_t count) = 0;
   /// Sets or replaces the triangle's candidate.
-  virtual void set(std::uint32_t id, const Candidate& candidate) = 0;
+  virtual void set(std::uint32_t id, const metric::Candidate& candidate) = 0;
   virtual void remove(std::uint32_t id) = 0;
   /// Appends the triangles whose candidate's error is at least `least`, in any order.
   virtual void collect(double least, std::vector<std::uint32_t>& ids) const = 0;
@@ -36,7 +36,7 @@ class CandidateQueue final : public CandidateStore {
  public:
   bool empty() const override { return heap_.empty(); }
   std::uint32_t worst() const override { return heap_[0]; }
-  Candidate candidate(std::uint32_t id) const override { return {errors_[id], points_[id]}; }
+  metric::Candidate candidate(std::uint32_t id) const override { return {errors_[id], points_[id]}; }
 
   void grow(std::size_t count) override {
     const std::size_t known = slots_.size();
@@ -48,10 +48,10 @@ class CandidateQueue final : public CandidateStore {
   }
 
   /// Re-keys a queued triangle in place.
-  void set(std::uint32_t id, const Candidate& candidate) override {
+  void set(std::uint32_t id, const metric::Candidate& candidate) override {
     std::size_t slot = slots_[id];
     const bool was_queued = slots_[id] != kNotQueued;
-    const bool rises = !was_queued || is_worse(candidate, this->candidate(id));
+    const bool rises = !was_queued || metric::is_worse(candidate, this->candidate(id));
     errors_[id] = candidate.error;
     points_[id] = candidate.at;
     if (!was_queued) {
@@ -68,7 +68,7 @@ class CandidateQueue final : public CandidateStore {
     const std::uint32_t last = heap_.back();
     heap_.pop_back();
     if (last == id) return;
-    const bool rises = slot > 0 && is_worse(candidate(last), candidate(heap_[(slot - 1) / 4]));
+    const bool rises = slot > 0 && metric::is_worse(candidate(last), candidate(heap_[(slot - 1) / 4]));
     rises ? sift_up(slot, last) : sift_down(slot, last);
   }
 
@@ -95,24 +95,24 @@ class CandidateQueue final : public CandidateStore {
     slots_[id] = static_cast<std::uint32_t>(slot);
   }
   void sift_up(std::size_t slot, std::uint32_t id) {
-    const Candidate moved = candidate(id);
+    const metric::Candidate moved = candidate(id);
     while (slot > 0) {
       const std::size_t parent = (slot - 1) / 4;
-      if (!is_worse(moved, candidate(heap_[parent]))) break;
+      if (!metric::is_worse(moved, candidate(heap_[parent]))) break;
       place(slot, heap_[parent]);
       slot = parent;
     }
     place(slot, id);
   }
   void sift_down(std::size_t slot, std::uint32_t id) {
-    const Candidate moved = candidate(id);
+    const metric::Candidate moved = candidate(id);
     for (;;) {
       const std::size_t first = 4 * slot + 1, end = first + 4 < heap_.size() ? first + 4 : heap_.size();
       std::size_t best = slot;
-      Candidate best_candidate = moved;
+      metric::Candidate best_candidate = moved;
       for (std::size_t child = first; child < end; ++child) {
-        const Candidate c = candidate(heap_[child]);
-        if (is_worse(c, best_candidate)) {
+        const metric::Candidate c = candidate(heap_[child]);
+        if (metric::is_worse(c, best_candidate)) {
           best = child;
           best_candidate = c;
         }
@@ -139,7 +139,7 @@ class CandidateList final : public CandidateStore {
     if (!known_) {
       bool any = false;
       for (std::uint32_t id = 0; id < candidates_.size(); ++id) {
-        if (!(candidates_[id].error >= 0) || (any && !is_worse(candidates_[id], candidates_[worst_]))) continue;
+        if (!(candidates_[id].error >= 0) || (any && !metric::is_worse(candidates_[id], candidates_[worst_]))) continue;
         worst_ = id;
         any = true;
       }
@@ -148,9 +148,9 @@ class CandidateList final : public CandidateStore {
     }
     return worst_;
   }
-  Candidate candidate(std::uint32_t id) const override { return candidates_[id]; }
+  metric::Candidate candidate(std::uint32_t id) const override { return candidates_[id]; }
   void grow(std::size_t count) override { candidates_.resize(count, kNoCandidate); }
-  void set(std::uint32_t id, const Candidate& candidate) override {
+  void set(std::uint32_t id, const metric::Candidate& candidate) override {
     count_ += !(candidates_[id].error >= 0);
     candidates_[id] = candidate;
     known_ = false;
@@ -168,13 +168,13 @@ class CandidateList final : public CandidateStore {
   std::uint64_t moves() const override { return looked_; }
 
  private:
-  static constexpr Candidate kNoCandidate{-1, {}};
+  static constexpr metric::Candidate kNoCandidate{-1, {}};
 
-  std::vector<Candidate> candidates_;  // by triangle
+  std::vector<metric::Candidate> candidates_;  // by triangle
   std::size_t count_ = 0;
   mutable std::uint32_t worst_ = 0;
   mutable bool known_ = false;
   mutable std::uint64_t looked_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

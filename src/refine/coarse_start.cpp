@@ -5,7 +5,7 @@
 #include "refine/dominant.h"
 #include "refine/tile_domain.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr Attempt kRoughAttempts[] = {{8, 0.25, 0.12}, {4, 0.08, 0.06}};
 }  // namespace
 
 void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density, bool is_rough,
-                         TileMesh& mesh) {
+                         tin::TileMesh& mesh) {
   work_ = {};
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
   for (const Attempt& attempt : is_rough ? kRoughAttempts : kAttempts) {
@@ -28,14 +28,14 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
     // Fewer than some 16 coarse samples per side show nothing about the terrain.
     if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;
     if (!refine(tile, step, attempt.most, threshold)) continue;
-    TileMesh::Id last = 0;
-    for (const TilePoint p : inserted_) {
-      const std::int32_t x = tile_x(p) * step, y = tile_y(p) * step;
+    tin::TileMesh::Id last = 0;
+    for (const geom::TilePoint p : inserted_) {
+      const std::int32_t x = geom::tile_x(p) * step, y = geom::tile_y(p) * step;
       const bool is_shared = (shared.left && x == 0) || (shared.top && y == 0) || (shared.right && x == last_col) ||
                              (shared.bottom && y == last_row);
       if (is_shared) continue;
-      last = mesh.locate(tile_point(x, y), last);
-      if (!mesh.is_outside(last)) last = mesh.insert(tile_point(x, y), last);
+      last = mesh.locate(geom::tile_point(x, y), last);
+      if (!mesh.is_outside(last)) last = mesh.insert(geom::tile_point(x, y), last);
     }
     return;
   }
@@ -43,7 +43,7 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
 
 bool CoarseStart::refine(const Tile& tile, std::int32_t step, double share, double threshold) {
   coarse_.load_coarse(tile, step);
-  const TileView& view = coarse_.view();
+  const geom::TileView& view = coarse_.view();
   if (!start_tile(coarse_, {}, mesh_)) return false;
   inserted_.clear();
   TileScanner scanner(view, threshold);
@@ -55,4 +55,4 @@ bool CoarseStart::refine(const Tile& tile, std::int32_t step, double share, doub
   return run.finished;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -15,7 +15,7 @@
 #include "scarp/run.h"
 #include "tin/tile_mesh.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 class CoarseStart {
  public:
@@ -25,7 +25,7 @@ class CoarseStart {
   /// at most one insertion per 190 samples of the tile is wasted. Inserts no vertex on a shared side or outside the
   /// surface.
   void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, bool is_rough,
-              TileMesh& mesh);
+              tin::TileMesh& mesh);
 
   /// Work of the last call.
   const Work& work() const { return work_; }
@@ -34,9 +34,9 @@ class CoarseStart {
   bool refine(const Tile& tile, std::int32_t step, double share, double threshold);
 
   Tile coarse_;
-  TileMesh mesh_;
-  std::vector<TilePoint> inserted_;
+  tin::TileMesh mesh_;
+  std::vector<geom::TilePoint> inserted_;
   Work work_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -4,19 +4,21 @@
 #include <queue>
 #include <utility>
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
-bool is_inside(const Triangulation& tin, HalfEdge h) { return h != kNone && !tin.is_outside(h / 3); }
+bool is_inside(const tin::Triangulation& tin, tin::HalfEdge h) { return h != tin::kNone && !tin.is_outside(h / 3); }
 
 /// True if the half-edge's triangle is part of the domain, but no triangle on its other side is.
-bool is_boundary(const Triangulation& tin, HalfEdge h) { return is_inside(tin, h) && !is_inside(tin, tin.twin(h)); }
+bool is_boundary(const tin::Triangulation& tin, tin::HalfEdge h) {
+  return is_inside(tin, h) && !is_inside(tin, tin.twin(h));
+}
 
 struct LongEdge {
   std::int64_t square;
   Point from;
-  HalfEdge edge;
+  tin::HalfEdge edge;
 
   friend bool operator<(const LongEdge& a, const LongEdge& b) {
     return a.square != b.square ? a.square < b.square : before(b.from, a.from);
@@ -25,7 +27,7 @@ struct LongEdge {
 
 }  // namespace
 
-void add_points(const SnappedPoints& points, std::size_t stride, ScatteredDomain& domain) {
+void add_points(const grid::SnappedPoints& points, std::size_t stride, ScatteredDomain& domain) {
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Point p = points.at[i];
     domain.insert(static_cast<std::uint32_t>(i), p, domain.tin.locate(p, domain.tin.last_touched()));
@@ -33,47 +35,47 @@ void add_points(const SnappedPoints& points, std::size_t stride, ScatteredDomain
 }
 
 std::size_t take_away_long(ScatteredDomain& domain, double longest) {
-  Triangulation& tin = domain.tin;
+  tin::Triangulation& tin = domain.tin;
   std::vector<bool> is_on_boundary(tin.vertex_count());
   std::priority_queue<LongEdge> edges;
-  const auto add = [&](HalfEdge h) {
-    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(Triangulation::next(h)));
+  const auto add = [&](tin::HalfEdge h) {
+    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(tin::Triangulation::next(h)));
     is_on_boundary[tin.origin(h)] = true;
     const std::int64_t x = b.x - a.x, y = b.y - a.y;
     if (const std::int64_t square = x * x + y * y; static_cast<double>(square) > longest * longest)
       edges.push({square, a, h});
   };
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (is_boundary(tin, h)) add(h);
   }
   std::size_t taken = 0;
   while (!edges.empty()) {
-    const HalfEdge h = edges.top().edge;
+    const tin::HalfEdge h = edges.top().edge;
     edges.pop();
     // A corner on the boundary remains there, so a triangle that must remain now must always remain.
-    if (is_on_boundary[tin.origin(Triangulation::previous(h))]) continue;
+    if (is_on_boundary[tin.origin(tin::Triangulation::previous(h))]) continue;
     tin.set_outside(h / 3, true);
     ++taken;
-    add(tin.twin(Triangulation::next(h)));
-    add(tin.twin(Triangulation::previous(h)));
+    add(tin.twin(tin::Triangulation::next(h)));
+    add(tin.twin(tin::Triangulation::previous(h)));
   }
   return taken;
 }
 
 std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain) {
-  const Triangulation& tin = domain.tin;
-  std::vector<Vertex> next_of(tin.vertex_count(), kNone);
-  Vertex first = kNone;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  const tin::Triangulation& tin = domain.tin;
+  std::vector<tin::Vertex> next_of(tin.vertex_count(), tin::kNone);
+  tin::Vertex first = tin::kNone;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (!is_boundary(tin, h)) continue;
-    const Vertex v = tin.origin(h);
-    next_of[v] = tin.origin(Triangulation::next(h));
-    if (first == kNone || before(tin.point(v), tin.point(first))) first = v;
+    const tin::Vertex v = tin.origin(h);
+    next_of[v] = tin.origin(tin::Triangulation::next(h));
+    if (first == tin::kNone || before(tin.point(v), tin.point(first))) first = v;
   }
   std::vector<std::uint32_t> outline;
-  Vertex v = first;
+  tin::Vertex v = first;
   do {
-    const Vertex w = next_of[v], u = next_of[w];
+    const tin::Vertex w = next_of[v], u = next_of[w];
     if (orient(tin.point(v), tin.point(w), tin.point(u)) != 0) outline.push_back(domain.point_of[w]);
     v = w;
   } while (v != first);
@@ -81,14 +83,14 @@ std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain) {
   return outline;
 }
 
-Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, ScatteredDomain hull, double length) {
+Result<ScatteredDomain> build_concave_domain(const grid::SnappedPoints& points, ScatteredDomain hull, double length) {
   add_points(points, 1, hull);
   // Includes half a step for each moved end, and rounding; an edge of just this length remains.
   const double longest = length / points.lattice.step * (1 + 1e-12) + (points.is_exact ? 0 : 1);
   take_away_long(hull, longest);
   const std::vector<std::vector<std::uint32_t>> outlines{outline_of(hull)};
-  hull = {Triangulation(2, 2), {}, {}, 0};
+  hull = {tin::Triangulation(2, 2), {}, {}, 0};
   return build_domain(points, outlines);
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

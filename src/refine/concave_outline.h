@@ -10,11 +10,11 @@
 
 #include "refine/scattered.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// Inserts every `stride`-th point. Afterwards, the domain is the Delaunay triangulation of these points and the
 /// previous vertices. Cost: expected O(n log n).
-void add_points(const SnappedPoints& points, std::size_t stride, ScatteredDomain& domain);
+void add_points(const grid::SnappedPoints& points, std::size_t stride, ScatteredDomain& domain);
 
 /// Marks triangles with a boundary edge longer than `longest`, in steps of the lattice, as outside; the longest edge
 /// first (ties: the first end in raster order). The domain remains connected and its boundary a simple polygon: the
@@ -27,6 +27,6 @@ std::vector<std::uint32_t> outline_of(const ScatteredDomain& domain);
 
 /// The domain within the concave hull of all points. Its boundary has edges of at most `length`, in units of x and y,
 /// and longer edges only where they cannot be removed. `hull`: build_domain(points).
-Result<ScatteredDomain> build_concave_domain(const SnappedPoints& points, ScatteredDomain hull, double length);
+Result<ScatteredDomain> build_concave_domain(const grid::SnappedPoints& points, ScatteredDomain hull, double length);
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -6,7 +6,7 @@
 
 #include "refine/quadrilateral.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
@@ -18,9 +18,9 @@ double default_threshold(EdgeScore score) { return score == EdgeScore::kTight ? 
 }  // namespace
 
 /// Flips by score only, if no triangle becomes too thin.
-struct DataDependentRule::Improver final : public FlipRule {
+struct DataDependentRule::Improver final : public tin::FlipRule {
   explicit Improver(DataDependentRule& owner_) : owner(owner_) {}
-  bool should_flip(const Triangulation& tin, HalfEdge h) override {
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override {
     const Quadrilateral quad(tin, h);
     if (!quad.can_flip() || tin.is_outside(quad.t) || fatness(quad.other) < owner.threshold_) return false;
     if (!owner.is_better(tin, h)) return false;
@@ -31,22 +31,22 @@ struct DataDependentRule::Improver final : public FlipRule {
   DataDependentRule& owner;
 };
 
-DataDependentRule::DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule)
+DataDependentRule::DataDependentRule(const metric::ErrorMetric& metric, const EdgeRule& rule)
     : metric_(metric),
       rule_(rule),
       threshold_(rule.shape_threshold < 0 ? default_threshold(rule.score) : rule.shape_threshold),
       cache_(metric, rule.score == EdgeScore::kSquares, rule.supersample) {}
 
-Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Location location) {
-  const Vertex v = tin.insert(p, location, this);
+tin::Vertex DataDependentRule::insert(tin::Triangulation& tin, Point p, tin::Triangulation::Location location) {
+  const tin::Vertex v = tin.insert(p, location, this);
   tin.star(v, changed_);
   if (rule_.score != EdgeScore::kTight) return v;
-  std::vector<HalfEdge> edges;
-  for (Triangle t : changed_) {
+  std::vector<tin::HalfEdge> edges;
+  for (tin::Triangle t : changed_) {
     if (tin.is_outside(t)) continue;
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+    for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
       // A spoke belongs to two triangles of the star, but is tested once.
-      const bool is_spoke = tin.origin(h) == v || tin.origin(Triangulation::next(h)) == v;
+      const bool is_spoke = tin.origin(h) == v || tin.origin(tin::Triangulation::next(h)) == v;
       if (!is_spoke || h < tin.twin(h)) edges.push_back(h);
     }
   }
@@ -57,12 +57,12 @@ Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Loc
   return v;
 }
 
-bool DataDependentRule::should_flip(const Triangulation& tin, HalfEdge h) {
+bool DataDependentRule::should_flip(const tin::Triangulation& tin, tin::HalfEdge h) {
   const Quadrilateral quad(tin, h);
   if (!quad.can_flip()) return false;
   if (tin.is_outside(quad.t)) {
     const auto [a, b, c] = quad.kept[0];
-    return in_circle(a, b, c, quad.kept[1][2]) > 0;
+    return geom::in_circle(a, b, c, quad.kept[1][2]) > 0;
   }
   if (rule_.score == EdgeScore::kTight) {
     const double kept = fatness(quad.kept), other = fatness(quad.other);
@@ -75,7 +75,7 @@ bool DataDependentRule::should_flip(const Triangulation& tin, HalfEdge h) {
   return is_better(tin, h);
 }
 
-double DataDependentRule::part(const Fit& fit) const {
+double DataDependentRule::part(const metric::Fit& fit) const {
   switch (rule_.score) {
     case EdgeScore::kSquares:
       return fit.sum_squares;
@@ -90,7 +90,7 @@ double DataDependentRule::combine(double first, double second) const {
   return rule_.score == EdgeScore::kMax ? std::max(first, second) : first + second;
 }
 
-bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
+bool DataDependentRule::is_better(const tin::Triangulation& tin, tin::HalfEdge h) {
   const Quadrilateral quad(tin, h);
   if (rule_.score == EdgeScore::kNormals)
     return metric_.bend(quad.other[0], quad.other[1]) < metric_.bend(quad.kept[0], quad.kept[1]);
@@ -107,13 +107,13 @@ bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
     const double limit = most + 0x1p-40 * score;
     return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(limit) : limit);
   };
-  const Fit first = look(quad.other[0], score);
+  const metric::Fit first = look(quad.other[0], score);
   if (!first.complete) return false;
-  const Fit second = look(quad.other[1], rule_.score == EdgeScore::kMax ? score : score - part(first));
+  const metric::Fit second = look(quad.other[1], rule_.score == EdgeScore::kMax ? score : score - part(first));
   if (!second.complete || !(combine(part(first), part(second)) < score)) return false;
   cache_.remember(quad.t, quad.first_vertices, first);
   cache_.remember(quad.u, quad.second_vertices, second);
   return true;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -13,37 +13,37 @@
 #include "scarp/options.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::refine {
 
-class DataDependentRule final : public FlipRule {
+class DataDependentRule final : public tin::FlipRule {
  public:
   /// The metric must outlive this.
-  DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule);
+  DataDependentRule(const metric::ErrorMetric& metric, const EdgeRule& rule);
 
   /// The rule for edges that face a new vertex: by score or by shape.
-  bool should_flip(const Triangulation& tin, HalfEdge h) override;
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override;
   /// Inserts p under this rule. For EdgeScore::kTight, the edges around p are then flipped by score until no flip
   /// improves it.
-  Vertex insert(Triangulation& tin, Point p, Triangulation::Location location);
+  tin::Vertex insert(tin::Triangulation& tin, Point p, tin::Triangulation::Location location);
   /// Triangles that the last insert() changed: around the new vertex, and at flipped edges beyond.
-  const std::vector<Triangle>& changed() const { return changed_; }
+  const std::vector<tin::Triangle>& changed() const { return changed_; }
   /// The fit of a triangle that is not outside.
-  const Fit& fit_of(const Triangulation& tin, Triangle t) { return cache_.fit_of(tin, t); }
+  const metric::Fit& fit_of(const tin::Triangulation& tin, tin::Triangle t) { return cache_.fit_of(tin, t); }
 
   std::uint64_t samples_scanned() const { return cache_.samples_scanned(); }
   std::uint64_t triangles_scanned() const { return cache_.triangles_scanned(); }
 
  private:
   struct Improver;
-  bool is_better(const Triangulation& tin, HalfEdge h);
+  bool is_better(const tin::Triangulation& tin, tin::HalfEdge h);
   double combine(double first, double second) const;
-  double part(const Fit& fit) const;
+  double part(const metric::Fit& fit) const;
 
-  const ErrorMetric& metric_;
+  const metric::ErrorMetric& metric_;
   EdgeRule rule_;
   double threshold_;
   FitCache cache_;
-  std::vector<Triangle> changed_;
+  std::vector<tin::Triangle> changed_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -4,52 +4,52 @@
 #include <numeric>
 #include <vector>
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
-Vertex insert_point(Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
+tin::Vertex insert_point(tin::Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
 
 /// False if two edges cross.
-bool constrain_outline(Triangulation& tin, const Outline& outline) {
+bool constrain_outline(tin::Triangulation& tin, const grid::Outline& outline) {
   for (const auto& polygon : outline) {
     for (Point p : polygon) insert_point(tin, p);
   }
   for (const auto& polygon : outline) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vertex a = insert_point(tin, polygon[i]), b = insert_point(tin, polygon[(i + 1) % polygon.size()]);
+      const tin::Vertex a = insert_point(tin, polygon[i]), b = insert_point(tin, polygon[(i + 1) % polygon.size()]);
       if (!tin.constrain(a, b)) return false;
     }
   }
   return true;
 }
 
-Outline loosen_outline(const Raster& raster, const Outline& outline, double tolerance) {
-  return simplify_outline(raster, close_voids(raster, outline, tolerance), tolerance);
+grid::Outline loosen_outline(const grid::Raster& raster, const grid::Outline& outline, double tolerance) {
+  return grid::simplify_outline(raster, grid::close_voids(raster, outline, tolerance), tolerance);
 }
 
 /// The constrained edge from v towards `to`, which chains of constrained edges join.
-HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<Triangle>& star) {
+tin::HalfEdge edge_towards(const tin::Triangulation& tin, tin::Vertex v, Point to, std::vector<tin::Triangle>& star) {
   tin.star(v, star);
   const Point from = tin.point(v);
-  for (Triangle t : star) {
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      const Point p = tin.point(tin.origin(Triangulation::next(h)));
+  for (tin::Triangle t : star) {
+    for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const Point p = tin.point(tin.origin(tin::Triangulation::next(h)));
       const bool is_ahead =
           std::int64_t{p.x - from.x} * (to.x - from.x) + std::int64_t{p.y - from.y} * (to.y - from.y) > 0;
       if (tin.origin(h) == v && is_ahead && orient(from, to, p) == 0) return h;
     }
   }
-  return kNone;
+  return tin::kNone;
 }
 
 /// Marks a triangle as outside if every path from it to the left side of an outline's edge crosses a constrained edge.
 /// Samples cannot decide this: a simplified outline may enclose triangles that contain only nodata, with samples at
 /// their corners.
-Result<void> mark_outside(Triangulation& tin, const Outline& outline) {
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
-  std::vector<Triangle> stack, star;
-  const auto add = [&](Triangle t) {
+Result<void> mark_outside(tin::Triangulation& tin, const grid::Outline& outline) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
+  std::vector<tin::Triangle> stack, star;
+  const auto add = [&](tin::Triangle t) {
     if (!tin.is_outside(t)) return;
     tin.set_outside(t, false);
     stack.push_back(t);
@@ -57,32 +57,32 @@ Result<void> mark_outside(Triangulation& tin, const Outline& outline) {
   for (const auto& polygon : outline) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Point end = polygon[(i + 1) % polygon.size()];
-      for (Vertex v = insert_point(tin, polygon[i]); tin.point(v) != end;) {
-        const HalfEdge h = edge_towards(tin, v, end, star);
-        if (h == kNone) return fail(ErrorKind::kInternal, "an edge of the outline of the valid data is missing");
-        add(Triangulation::triangle_of(h));
-        v = tin.origin(Triangulation::next(h));
+      for (tin::Vertex v = insert_point(tin, polygon[i]); tin.point(v) != end;) {
+        const tin::HalfEdge h = edge_towards(tin, v, end, star);
+        if (h == tin::kNone) return fail(ErrorKind::kInternal, "an edge of the outline of the valid data is missing");
+        add(tin::Triangulation::triangle_of(h));
+        v = tin.origin(tin::Triangulation::next(h));
       }
     }
   }
   while (!stack.empty()) {
-    const Triangle t = stack.back();
+    const tin::Triangle t = stack.back();
     stack.pop_back();
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-      const HalfEdge g = tin.twin(h);
-      if (g != kNone && !tin.is_constrained(h)) add(Triangulation::triangle_of(g));
+    for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const tin::HalfEdge g = tin.twin(h);
+      if (g != tin::kNone && !tin.is_constrained(h)) add(tin::Triangulation::triangle_of(g));
     }
   }
   return {};
 }
 
-std::uint32_t count_unused_corners(const Triangulation& tin) {
+std::uint32_t count_unused_corners(const tin::Triangulation& tin) {
   std::uint32_t unused = 0;
-  std::vector<Triangle> star;
-  for (Vertex v = 0; v < 4; ++v) {
+  std::vector<tin::Triangle> star;
+  for (tin::Vertex v = 0; v < 4; ++v) {
     tin.star(v, star);
     bool used = false;
-    for (Triangle t : star) used = used || !tin.is_outside(t);
+    for (tin::Triangle t : star) used = used || !tin.is_outside(t);
     unused += !used;
   }
   return unused;
@@ -90,16 +90,16 @@ std::uint32_t count_unused_corners(const Triangulation& tin) {
 
 }  // namespace
 
-void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame& frame) {
+void follow_curved_border(const grid::Raster& raster, tin::Triangulation& tin, const Frame& frame) {
   constexpr double kStray = 1.0 / 512;
   struct Segment {
     Point a, b;
   };
   std::vector<Segment> stack;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const HalfEdge g = tin.twin(h);
-    if (tin.is_outside(h / 3) || (g != kNone && !tin.is_outside(g / 3))) continue;
-    stack.push_back({tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h)))});
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::HalfEdge g = tin.twin(h);
+    if (tin.is_outside(h / 3) || (g != tin::kNone && !tin.is_outside(g / 3))) continue;
+    stack.push_back({tin.point(tin.origin(h)), tin.point(tin.origin(tin::Triangulation::next(h)))});
   }
   std::vector<double> xs, ys;
   while (!stack.empty()) {
@@ -137,21 +137,21 @@ void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame&
   }
 }
 
-Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame) {
-  DomainMesh domain{Triangulation(raster.cols, raster.rows)};
-  domain.whole = is_whole(raster);
+Result<DomainMesh> build_domain(const grid::Raster& raster, double outline_tolerance, const Frame& frame) {
+  DomainMesh domain{tin::Triangulation(raster.cols, raster.rows)};
+  domain.whole = grid::is_whole(raster);
   if (!domain.whole) {
-    Outline outline = trace_outline(raster);
+    grid::Outline outline = grid::trace_outline(raster);
     if (outline.empty())
       return fail(
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-    Outline simplified;
+    grid::Outline simplified;
     if (outline_tolerance > 0) simplified = loosen_outline(raster, outline, outline_tolerance);
     if (!simplified.empty() && constrain_outline(domain.tin, simplified)) {
       outline = std::move(simplified);
     } else {
-      domain.tin = Triangulation(raster.cols, raster.rows);
+      domain.tin = tin::Triangulation(raster.cols, raster.rows);
       if (!constrain_outline(domain.tin, outline))
         return fail(ErrorKind::kInternal, "two edges of the outline of the valid data cross");
     }
@@ -162,4 +162,4 @@ Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, 
   return domain;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
-using Id = TileMesh::Id;
+using Id = tin::TileMesh::Id;
 
 class Walk {
  public:
-  Walk(TileMesh& mesh, TileScanner& scanner, std::vector<TilePoint>* inserted)
+  Walk(tin::TileMesh& mesh, TileScanner& scanner, std::vector<geom::TilePoint>* inserted)
       : mesh_(mesh), scanner_(scanner), inserted_(inserted) {
     std::vector<Id> all(mesh.triangle_count());
     for (Id t = 0; t < all.size(); ++t) all[t] = t;
@@ -26,11 +26,11 @@ class Walk {
         stack_.pop_back();  // changed since it was pushed
         continue;
       }
-      const TilePoint p = candidate_of(key);
+      const geom::TilePoint p = candidate_of(key);
       Entry worst{key, t};
-      for (const TileMesh::Link link : mesh_[t].links) consider(link, worst);
+      for (const tin::TileMesh::Link link : mesh_[t].links) consider(link, worst);
       if (worst.triangle == t) {
-        const TileMesh::Cavity cavity = mesh_.find_cavity(t, p);
+        const tin::TileMesh::Cavity cavity = mesh_.find_cavity(t, p);
         for (const Id removed : cavity.removed) consider_triangle(removed, worst);
         for (const auto& side : cavity.sides) consider(side.beyond, worst);
         if (worst.triangle == t) {
@@ -64,11 +64,11 @@ class Walk {
   void consider_triangle(Id t, Entry& worst) const {
     if (const std::int64_t key = mesh_[t].key; key > worst.key) worst = {key, t};
   }
-  void consider(TileMesh::Link link, Entry& worst) const {
-    if (link != TileMesh::kBorder) consider_triangle(TileMesh::triangle_of(link), worst);
+  void consider(tin::TileMesh::Link link, Entry& worst) const {
+    if (link != tin::TileMesh::kBorder) consider_triangle(tin::TileMesh::triangle_of(link), worst);
   }
 
-  void insert(TilePoint p, const TileMesh::Cavity& cavity) {
+  void insert(geom::TilePoint p, const tin::TileMesh::Cavity& cavity) {
     hints_.clear();
     for (const Id t : cavity.removed) {
       const std::int64_t key = mesh_[t].key;
@@ -87,18 +87,19 @@ class Walk {
     if (inserted_ != nullptr) inserted_->push_back(p);
   }
 
-  TileMesh& mesh_;
+  tin::TileMesh& mesh_;
   TileScanner& scanner_;
-  std::vector<TilePoint>* inserted_;
+  std::vector<geom::TilePoint>* inserted_;
   std::vector<Entry> stack_;
-  std::vector<TilePoint> hints_;
+  std::vector<geom::TilePoint> hints_;
   DominantRun done_;
 };
 
 }  // namespace
 
-DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most, std::vector<TilePoint>* inserted) {
+DominantRun refine_dominant(tin::TileMesh& mesh, TileScanner& scanner, std::size_t most,
+                            std::vector<geom::TilePoint>* inserted) {
   return Walk(mesh, scanner, inserted).run(most);
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

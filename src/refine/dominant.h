@@ -32,7 +32,7 @@
 #include "refine/tile_scanner.h"
 #include "tin/tile_mesh.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 struct DominantRun {
   std::uint64_t insertions = 0;
@@ -42,7 +42,7 @@ struct DominantRun {
 
 /// Scans all triangles of the mesh, then inserts candidates until none is left, or until the mesh has `most` vertices.
 /// Appends the inserted points to `inserted`, in order, unless it is null.
-DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most = SIZE_MAX,
-                            std::vector<TilePoint>* inserted = nullptr);
+DominantRun refine_dominant(tin::TileMesh& mesh, TileScanner& scanner, std::size_t most = SIZE_MAX,
+                            std::vector<geom::TilePoint>* inserted = nullptr);
 
-}  // namespace scarp
+}  // namespace scarp::refine

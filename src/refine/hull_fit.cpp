@@ -10,7 +10,7 @@
 
 #include "refine/concave_outline.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
@@ -23,19 +23,19 @@ double ninth_decile(std::vector<double> values) {
   return *at;
 }
 
-double ninth_decile_of_edges(const Triangulation& tin) {
+double ninth_decile_of_edges(const tin::Triangulation& tin) {
   std::vector<double> lengths;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (tin.is_outside(h / 3)) continue;
-    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(Triangulation::next(h)));
+    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(tin::Triangulation::next(h)));
     lengths.push_back(std::hypot(double(b.x) - a.x, double(b.y) - a.y));
   }
   return ninth_decile(std::move(lengths));
 }
 
-double area_of(const Triangulation& tin) {
+double area_of(const tin::Triangulation& tin) {
   double twice = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     const auto [a, b, c] = tin.corners(t);
     if (!tin.is_outside(t)) twice += static_cast<double>(orient(a, b, c));
   }
@@ -43,11 +43,11 @@ double area_of(const Triangulation& tin) {
 }
 
 /// Rise over run by triangle, in units of z per unit of x and y; NaN outside.
-std::vector<double> find_slopes(const SnappedPoints& points, const ScatteredDomain& domain) {
-  const Triangulation& tin = domain.tin;
-  const auto z = [&](HalfEdge h) { return points.z[domain.point_of[tin.origin(h)]]; };
+std::vector<double> find_slopes(const grid::SnappedPoints& points, const ScatteredDomain& domain) {
+  const tin::Triangulation& tin = domain.tin;
+  const auto z = [&](tin::HalfEdge h) { return points.z[domain.point_of[tin.origin(h)]]; };
   std::vector<double> slopes(tin.triangle_count(), std::numeric_limits<double>::quiet_NaN());
-  for (Triangle t = 0; t < slopes.size(); ++t) {
+  for (tin::Triangle t = 0; t < slopes.size(); ++t) {
     if (tin.is_outside(t)) continue;
     const auto [a, b, c] = tin.corners(t);
     const double bx = double(b.x) - a.x, by = double(b.y) - a.y, bz = z(3 * t + 1) - z(3 * t);
@@ -66,10 +66,10 @@ double round_up(double length) {
 
 }  // namespace
 
-HullFit find_hull_fit(const SnappedPoints& points) {
+HullFit find_hull_fit(const grid::SnappedPoints& points) {
   ScatteredDomain domain = *build_domain(points);
   add_points(points, points.size() / kMostPoints + 1, domain);
-  const Triangulation& tin = domain.tin;
+  const tin::Triangulation& tin = domain.tin;
   const double root = std::sqrt(static_cast<double>(domain.vertex_count())), step = points.lattice.step;
   const double whole = area_of(tin), long_edge = ninth_decile_of_edges(tin);
   const std::vector<double> slopes = find_slopes(points, domain);
@@ -84,10 +84,10 @@ HullFit find_hull_fit(const SnappedPoints& points) {
   std::vector<double> known;
   std::copy_if(slopes.begin(), slopes.end(), std::back_inserter(known), [](double slope) { return slope >= 0; });
   const double steep = std::max(std::tan(80 * std::numbers::pi / 180), 10 * ninth_decile(std::move(known)));
-  for (Triangle t = 0; t < slopes.size(); ++t) fit.slivers += tin.is_outside(t) && slopes[t] > steep;
+  for (tin::Triangle t = 0; t < slopes.size(); ++t) fit.slivers += tin.is_outside(t) && slopes[t] > steep;
   if (static_cast<double>(fit.slivers) > std::max(10.0, 0.75 * root))
     fit.boundary_length = round_up(1.5 * long_edge * step);
   return fit;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

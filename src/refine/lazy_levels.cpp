@@ -9,11 +9,11 @@
 #include "base/bits.h"
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
-using Id = TileMesh::Id;
+using Id = tin::TileMesh::Id;
 using Limits = std::numeric_limits<float>;
 
 // The bits of a positive float, read as an integer, are its logarithm except for a curve within each octave. That
@@ -47,7 +47,7 @@ class Bucket {
 /// complement of a point of a tile is never 0).
 class Levels {
  public:
-  Levels(TileMesh& mesh, TileScanner& scanner, AreaPower power)
+  Levels(tin::TileMesh& mesh, TileScanner& scanner, AreaPower power)
       : mesh_(mesh),
         scanner_(scanner),
         power_(power),
@@ -134,12 +134,12 @@ class Levels {
 
   std::int64_t twice_area(Id t) const {
     const auto& corners = mesh_[t].corners;
-    return orient(point_of(corners[0]), point_of(corners[1]), point_of(corners[2]));
+    return orient(geom::point_of(corners[0]), geom::point_of(corners[1]), geom::point_of(corners[2]));
   }
   static std::int64_t log_of(std::int64_t area) { return bits_of(static_cast<float>(area)); }
 
   void insert(Id t) {
-    const TilePoint p = candidate_of(mesh_[t].key);
+    const geom::TilePoint p = candidate_of(mesh_[t].key);
     const std::int64_t error = mesh_[t].key >> 32, area = log_of(twice_area(t));
     mesh_.find_cavity(t, p);
     for (const Id fresh : mesh_.fill_cavity(p)) {
@@ -156,7 +156,7 @@ class Levels {
 
   static constexpr int kBuckets = 64;
 
-  TileMesh& mesh_;
+  tin::TileMesh& mesh_;
   TileScanner& scanner_;
   AreaPower power_;
   std::int64_t floor_;  // smallest estimate; never 0, which means that no triangle waits
@@ -170,8 +170,8 @@ class Levels {
 
 }  // namespace
 
-DominantRun refine_lazily(TileMesh& mesh, TileScanner& scanner, AreaPower power, std::size_t most) {
+DominantRun refine_lazily(tin::TileMesh& mesh, TileScanner& scanner, AreaPower power, std::size_t most) {
   return Levels(mesh, scanner, power).run(most);
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -26,7 +26,7 @@
 #include "refine/tile_scanner.h"
 #include "tin/tile_mesh.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// The power of the area in an estimated error.
 enum class AreaPower {
@@ -36,6 +36,6 @@ enum class AreaPower {
 
 /// Scans all triangles of the mesh, then inserts candidates until none is left, or until the mesh has `most` vertices.
 /// Counts insertions and entries put into buckets as work. After a run that stopped, keys may be estimates.
-DominantRun refine_lazily(TileMesh& mesh, TileScanner& scanner, AreaPower power, std::size_t most = SIZE_MAX);
+DominantRun refine_lazily(tin::TileMesh& mesh, TileScanner& scanner, AreaPower power, std::size_t most = SIZE_MAX);
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -10,49 +10,49 @@
 
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
 /// True if p is on the segment, but not at its ends.
-bool is_within(const Segment& s, Point p) {
+bool is_within(const geom::Segment& s, Point p) {
   if (p == s.from || p == s.to || orient(s.from, s.to, p) != 0) return false;
   return std::min(s.from.x, s.to.x) <= p.x && p.x <= std::max(s.from.x, s.to.x) && std::min(s.from.y, s.to.y) <= p.y &&
          p.y <= std::max(s.from.y, s.to.y);
 }
 
-bool cross(const Segment& s, const Segment& t) {
+bool cross(const geom::Segment& s, const geom::Segment& t) {
   return sign_of(orient(s.from, s.to, t.from)) * sign_of(orient(s.from, s.to, t.to)) < 0 &&
          sign_of(orient(t.from, t.to, s.from)) * sign_of(orient(t.from, t.to, s.to)) < 0;
 }
 
-bool meet(const Segment& s, const Segment& t) {
+bool meet(const geom::Segment& s, const geom::Segment& t) {
   return cross(s, t) || is_within(s, t.from) || is_within(s, t.to) || is_within(t, s.from) || is_within(t, s.to);
 }
 
-double length_of(const Segment& s) { return std::hypot(double(s.to.x) - s.from.x, double(s.to.y) - s.from.y); }
+double length_of(const geom::Segment& s) { return std::hypot(double(s.to.x) - s.from.x, double(s.to.y) - s.from.y); }
 
-class DelaunayRule final : public FlipRule {
+class DelaunayRule final : public tin::FlipRule {
  public:
-  bool should_flip(const Triangulation& tin, HalfEdge h) override {
-    const Point d = tin.point(tin.origin(Triangulation::previous(tin.twin(h))));
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override {
+    const Point d = tin.point(tin.origin(tin::Triangulation::previous(tin.twin(h))));
     const std::array<Point, 3> corners = tin.corners(h / 3);
-    return in_circle(corners[0], corners[1], corners[2], d) > 0;
+    return geom::in_circle(corners[0], corners[1], corners[2], d) > 0;
   }
 };
 
 /// Removes all constraints but the hull's.
-void release_all(Triangulation& tin) {
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const HalfEdge g = tin.twin(h);
-    if (g != kNone && tin.is_outside(h / 3) == tin.is_outside(g / 3)) tin.release(h);
+void release_all(tin::Triangulation& tin) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::HalfEdge g = tin.twin(h);
+    if (g != tin::kNone && tin.is_outside(h / 3) == tin.is_outside(g / 3)) tin.release(h);
   }
 }
 
-void restore_delaunay(Triangulation& tin) {
-  std::vector<HalfEdge> edges;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.twin(h) != kNone && h < tin.twin(h)) edges.push_back(h);
+void restore_delaunay(tin::Triangulation& tin) {
+  std::vector<tin::HalfEdge> edges;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) != tin::kNone && h < tin.twin(h)) edges.push_back(h);
   }
   DelaunayRule rule;
   tin.improve(edges, rule, std::numeric_limits<std::size_t>::max());
@@ -63,12 +63,12 @@ void restore_delaunay(Triangulation& tin) {
 std::vector<bool> find_vertices(const ScatteredDomain& domain, std::size_t points) {
   std::vector<bool> is_vertex(points);
   for (const std::uint32_t point : domain.point_of) {
-    if (point != kNone) is_vertex[point] = true;
+    if (point != tin::kNone) is_vertex[point] = true;
   }
   return is_vertex;
 }
 
-Result<PointLines> PointLines::build(const PointSet& points, const SnappedPoints& snapped) {
+Result<PointLines> PointLines::build(const PointSet& points, const grid::SnappedPoints& snapped) {
   PointLines result(points, snapped);
   result.is_on_line_.resize(snapped.size());
   for (std::uint32_t k = 0; k < points.lines.size(); ++k) {
@@ -90,7 +90,7 @@ Result<PointLines> PointLines::build(const PointSet& points, const SnappedPoints
 }
 
 Result<void> PointLines::check_meetings() const {
-  std::vector<Segment> segments;
+  std::vector<geom::Segment> segments;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owners;  // line, first point
   for (std::uint32_t line = 0; line < lines_.size(); ++line) {
     for (std::uint32_t k = 0; k + 1 < lines_[line].size(); ++k) {
@@ -116,14 +116,14 @@ Result<void> PointLines::check_meetings() const {
                           a == b ? one + " crosses itself" : fmt::format("{} and {} meet", one, other), x, y, za, zb)};
   };
   // Common vertices first.
-  std::vector<std::uint32_t> first(snapped_->size(), kNone);
+  std::vector<std::uint32_t> first(snapped_->size(), tin::kNone);
   for (std::uint32_t s = 0; s < segments.size() + lines_.size(); ++s) {
     const bool is_last = s >= segments.size();
     const std::uint32_t line = is_last ? static_cast<std::uint32_t>(s - segments.size()) : owners[s].first;
     const std::size_t k = is_last ? lines_[line].size() - 1 : owners[s].second;
     const std::uint32_t source = sources_[line][k];
     std::uint32_t& before = first[lines_[line][k]];
-    if (before == kNone) {
+    if (before == tin::kNone) {
       before = s;
       continue;
     }
@@ -132,7 +132,7 @@ Result<void> PointLines::check_meetings() const {
     const double z = z_at(other, was_last ? lines_[other].size() - 1 : owners[before].second);
     if (line != other) compare(other, z, line, points_->z[source], 0, points_->x[source], points_->y[source]);
   }
-  visit_neighbours(segments, [&](std::uint32_t i, std::uint32_t j) {
+  geom::visit_neighbours(segments, [&](std::uint32_t i, std::uint32_t j) {
     if (error || !meet(segments[i], segments[j])) return;
     for (auto [s, t] : {std::pair{i, j}, std::pair{j, i}}) {
       const std::uint32_t a = owners[s].first, k = owners[s].second;
@@ -150,7 +150,7 @@ Result<void> PointLines::check_meetings() const {
              points_->y[source]);
       }
       if (s == i && cross(segments[s], segments[t])) {
-        const auto share_of = [](const Segment& of, const Segment& by) {
+        const auto share_of = [](const geom::Segment& of, const geom::Segment& by) {
           const auto before = static_cast<double>(std::abs(orient(by.from, by.to, of.from)));
           return before / (before + static_cast<double>(std::abs(orient(by.from, by.to, of.to))));
         };
@@ -169,7 +169,7 @@ Result<void> PointLines::check_meetings() const {
 /// The point between the ends that is farthest from the chord; the first one for ties. REQUIRES: a point between the
 /// ends.
 std::uint32_t PointLines::farthest(const Chord& chord) const {
-  const Segment s = segment_of(chord);
+  const geom::Segment s = segment_of(chord);
   const double dx = double(s.to.x) - s.from.x, dy = double(s.to.y) - s.from.y, square = dx * dx + dy * dy;
   double most = -1;
   std::uint32_t best = 0;
@@ -199,7 +199,7 @@ std::vector<std::uint32_t> PointLines::ends() const {
     if (lines_[line].front() != lines_[line].back() || last < 3) continue;
     const std::uint32_t far = farthest({line, 0, last});
     ends.push_back(lines_[line][far]);
-    const Segment across{at(line, 0), at(line, far)};
+    const geom::Segment across{at(line, 0), at(line, far)};
     std::int64_t most = -1;
     std::uint32_t third = 0;
     for (std::uint32_t k = 1; k < last; ++k) {
@@ -229,12 +229,12 @@ std::vector<PointLines::Chord> PointLines::find_chords(const std::vector<bool>& 
 
 std::vector<std::uint32_t> PointLines::find_splits(const std::vector<bool>& is_vertex) const {
   const std::vector<Chord> chords = find_chords(is_vertex);
-  std::vector<Segment> segments;
+  std::vector<geom::Segment> segments;
   std::vector<std::uint32_t> owners;
   std::vector<bool> is_split(chords.size());
   const auto can_split = [](const Chord& chord) { return chord.end > chord.begin + 1; };
   for (std::uint32_t k = 0; k < chords.size(); ++k) {
-    const Segment s = segment_of(chords[k]);
+    const geom::Segment s = segment_of(chords[k]);
     if (s.from == s.to) {
       is_split[k] = can_split(chords[k]);
       continue;
@@ -242,7 +242,7 @@ std::vector<std::uint32_t> PointLines::find_splits(const std::vector<bool>& is_v
     segments.push_back(s);
     owners.push_back(k);
   }
-  visit_neighbours(segments, [&](std::uint32_t i, std::uint32_t j) {
+  geom::visit_neighbours(segments, [&](std::uint32_t i, std::uint32_t j) {
     const std::uint32_t a = owners[i], b = owners[j];
     if ((!can_split(chords[a]) && !can_split(chords[b])) || !meet(segments[i], segments[j])) return;
     for (const std::uint32_t k : {a, b}) is_split[k] = is_split[k] || can_split(chords[k]);
@@ -255,19 +255,19 @@ std::vector<std::uint32_t> PointLines::find_splits(const std::vector<bool>& is_v
 }
 
 std::uint64_t PointLines::hold(ScatteredDomain& domain) const {
-  Triangulation& tin = domain.tin;
-  std::vector<Vertex> vertex_of(snapped_->size(), kNone);
-  for (Vertex v = 0; v < domain.point_of.size(); ++v) {
-    if (domain.point_of[v] != kNone) vertex_of[domain.point_of[v]] = v;
+  tin::Triangulation& tin = domain.tin;
+  std::vector<tin::Vertex> vertex_of(snapped_->size(), tin::kNone);
+  for (tin::Vertex v = 0; v < domain.point_of.size(); ++v) {
+    if (domain.point_of[v] != tin::kNone) vertex_of[domain.point_of[v]] = v;
   }
   release_all(tin);
   std::uint64_t loose = 0;
   for (const Chord& chord : find_chords(find_vertices(domain, snapped_->size()))) {
-    const Vertex a = vertex_of[lines_[chord.line][chord.begin]], b = vertex_of[lines_[chord.line][chord.end]];
+    const tin::Vertex a = vertex_of[lines_[chord.line][chord.begin]], b = vertex_of[lines_[chord.line][chord.end]];
     if (a != b && !tin.constrain(a, b)) ++loose;
   }
   restore_delaunay(tin);
   return loose;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -17,13 +17,13 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 class PointLines {
  public:
   /// Fails with kInput if two lines meet with different heights, which the error names. `points` and `snapped` must
   /// outlive the result.
-  static Result<PointLines> build(const PointSet& points, const SnappedPoints& snapped);
+  static Result<PointLines> build(const PointSet& points, const grid::SnappedPoints& snapped);
 
   bool empty() const { return lines_.empty(); }
   /// By point: true if a line passes it.
@@ -42,15 +42,17 @@ class PointLines {
     std::uint32_t line, begin, end;
   };
 
-  PointLines(const PointSet& points, const SnappedPoints& snapped) : points_(&points), snapped_(&snapped) {}
+  PointLines(const PointSet& points, const grid::SnappedPoints& snapped) : points_(&points), snapped_(&snapped) {}
   Result<void> check_meetings() const;
   std::vector<Chord> find_chords(const std::vector<bool>& is_vertex) const;
   std::uint32_t farthest(const Chord& chord) const;
   Point at(std::uint32_t line, std::uint32_t k) const { return snapped_->at[lines_[line][k]]; }
-  Segment segment_of(const Chord& chord) const { return {at(chord.line, chord.begin), at(chord.line, chord.end)}; }
+  geom::Segment segment_of(const Chord& chord) const {
+    return {at(chord.line, chord.begin), at(chord.line, chord.end)};
+  }
 
   const PointSet* points_;
-  const SnappedPoints* snapped_;
+  const grid::SnappedPoints* snapped_;
   std::vector<std::vector<std::uint32_t>> lines_;    ///< lattice points; successive points differ
   std::vector<std::vector<std::uint32_t>> sources_;  ///< for each: the point of the set
   std::vector<std::uint32_t> given_;                 ///< for each: the line of the set
@@ -60,4 +62,4 @@ class PointLines {
 /// By point: true if it is a vertex of the domain.
 std::vector<bool> find_vertices(const ScatteredDomain& domain, std::size_t points);
 
-}  // namespace scarp
+}  // namespace scarp::refine

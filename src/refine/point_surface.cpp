@@ -7,40 +7,41 @@
 
 #include "refine/concave_outline.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 Result<PointSurface> PointSurface::make(const PointSet& points, DuplicatePolicy duplicates) {
-  SCARP_TRY(auto&& snapped, snap_points(points, duplicates, PointSteps::kFit));
+  SCARP_TRY(auto&& snapped, grid::snap_points(points, duplicates, grid::PointSteps::kFit));
   SCARP_TRY(auto&& domain, build_domain(snapped));
   add_points(snapped, 1, domain);
   return PointSurface(std::move(snapped), std::move(domain));
 }
 
 PointSurface::Height PointSurface::at(double x, double y) const {
-  const PointLattice& lattice = snapped_.lattice;
+  const grid::PointLattice& lattice = snapped_.lattice;
   const double col = (x - lattice.west) / lattice.step, row = (lattice.north - y) / lattice.step;
   if (!(col >= 0 && row >= 0 && col <= lattice.cols - 1 && row <= lattice.rows - 1)) return beyond(x, y);
-  const Triangulation& tin = domain_.tin;
+  const tin::Triangulation& tin = domain_.tin;
   const Point near{static_cast<std::int32_t>(std::lround(col)), static_cast<std::int32_t>(std::lround(row))};
   const auto found = tin.locate(near, hint_);
-  Triangle t = found.edge / 3;
+  tin::Triangle t = found.edge / 3;
   hint_ = t;
-  if (found.kind == Triangulation::Location::Kind::kOnVertex) {
+  if (found.kind == tin::Triangulation::Location::Kind::kOnVertex) {
     const std::uint32_t point = domain_.point_of[tin.origin(found.edge)];
-    return point == kNone ? beyond(x, y) : Height{snapped_.z[point], 0};
+    return point == tin::kNone ? beyond(x, y) : Height{snapped_.z[point], 0};
   }
-  const HalfEdge twin = tin.twin(found.edge);
-  if (tin.is_outside(t) && found.kind == Triangulation::Location::Kind::kOnEdge && twin != kNone) t = twin / 3;
+  const tin::HalfEdge twin = tin.twin(found.edge);
+  if (tin.is_outside(t) && found.kind == tin::Triangulation::Location::Kind::kOnEdge && twin != tin::kNone)
+    t = twin / 3;
   if (tin.is_outside(t)) return beyond(x, y);
   std::array<double, 3> z{};
   for (unsigned k = 0; k < 3; ++k) z[k] = snapped_.z[domain_.point_of[tin.origin(3 * t + k)]];
-  return {Plane::through_double(tin.corners(t), z).height_at(near), 0};
+  return {geom::Plane::through_double(tin.corners(t), z).height_at(near), 0};
 }
 
 double PointSurface::spacing() const {
   double doubled = 0;
-  const Triangulation& tin = domain_.tin;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  const tin::Triangulation& tin = domain_.tin;
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     const auto [a, b, c] = tin.corners(t);
     if (!tin.is_outside(t)) doubled += static_cast<double>(orient(a, b, c));
   }
@@ -48,7 +49,7 @@ double PointSurface::spacing() const {
 }
 
 PointSurface::Height PointSurface::beyond(double x, double y) const {
-  const PointLattice& lattice = snapped_.lattice;
+  const grid::PointLattice& lattice = snapped_.lattice;
   const auto& outline = domain_.outlines.front();
   Height nearest{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -68,4 +69,4 @@ PointSurface::Height PointSurface::beyond(double x, double y) const {
   return nearest;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

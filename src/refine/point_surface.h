@@ -7,7 +7,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 class PointSurface {
  public:
@@ -24,13 +24,13 @@ class PointSurface {
   double spacing() const;
 
  private:
-  PointSurface(SnappedPoints snapped, ScatteredDomain domain)
+  PointSurface(grid::SnappedPoints snapped, ScatteredDomain domain)
       : snapped_(std::move(snapped)), domain_(std::move(domain)) {}
   Height beyond(double x, double y) const;
 
-  SnappedPoints snapped_;
+  grid::SnappedPoints snapped_;
   ScatteredDomain domain_;
-  mutable Triangle hint_ = 0;
+  mutable tin::Triangle hint_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -6,17 +6,17 @@
 
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// For h = a→b in (a, b, c), with its twin in (b, a, d): the two present triangles, and the two after a flip, in the
 /// same slots (see FlipRule).
 struct Quadrilateral {
   using Corners = std::array<Point, 3>;
 
-  Quadrilateral(const Triangulation& tin, HalfEdge h) : t(h / 3), u(tin.twin(h) / 3) {
-    const HalfEdge g = tin.twin(h);
-    const Vertex a = tin.origin(h), b = tin.origin(g), c = tin.origin(Triangulation::previous(h)),
-                 d = tin.origin(Triangulation::previous(g));
+  Quadrilateral(const tin::Triangulation& tin, tin::HalfEdge h) : t(h / 3), u(tin.twin(h) / 3) {
+    const tin::HalfEdge g = tin.twin(h);
+    const tin::Vertex a = tin.origin(h), b = tin.origin(g), c = tin.origin(tin::Triangulation::previous(h)),
+                      d = tin.origin(tin::Triangulation::previous(g));
     first_vertices = {c, d, b};
     second_vertices = {d, c, a};
     const Point pa = tin.point(a), pb = tin.point(b), pc = tin.point(c), pd = tin.point(d);
@@ -29,10 +29,10 @@ struct Quadrilateral {
     return orient(other[0][0], other[0][1], other[0][2]) > 0 && orient(other[1][0], other[1][1], other[1][2]) > 0;
   }
 
-  Triangle t, u;                                          ///< triangles of h and of its twin
-  Corners kept[2];                                        ///< corners of t, u
-  Corners other[2];                                       ///< corners of t, u after a flip
-  std::array<Vertex, 3> first_vertices, second_vertices;  ///< vertices of other[0], other[1]
+  tin::Triangle t, u;                                          ///< triangles of h and of its twin
+  Corners kept[2];                                             ///< corners of t, u
+  Corners other[2];                                            ///< corners of t, u after a flip
+  std::array<tin::Vertex, 3> first_vertices, second_vertices;  ///< vertices of other[0], other[1]
 };
 
 inline double twice_area(const Quadrilateral::Corners& t) { return static_cast<double>(orient(t[0], t[1], t[2])); }
@@ -57,4 +57,4 @@ inline double fatness(const Quadrilateral::Corners& t) {
 /// Fatness of the thinner triangle.
 inline double fatness(const Quadrilateral::Corners (&pair)[2]) { return std::min(fatness(pair[0]), fatness(pair[1])); }
 
-}  // namespace scarp
+}  // namespace scarp::refine

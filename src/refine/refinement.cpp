@@ -5,10 +5,10 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::refine {
 
-Refinement::Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges,
-                       Start start)
+Refinement::Refinement(const metric::ErrorMetric& metric, tin::Triangulation& tin, Algorithm algorithm,
+                       const EdgeRule& edges, Start start)
     : metric_(metric), tin_(tin), algorithm_(algorithm) {
   if (edges.data_dependent) rule_ = std::make_unique<DataDependentRule>(metric, edges);
   if (algorithm == Algorithm::kHeap) {
@@ -16,7 +16,7 @@ Refinement::Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm 
   } else {
     candidates_ = std::make_unique<CandidateList>();
   }
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) inside_ += !tin.is_outside(t);
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) inside_ += !tin.is_outside(t);
   if (start == Start::kScan) {
     rescan_all();
   } else {
@@ -24,12 +24,12 @@ Refinement::Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm 
   }
 }
 
-Refinement::Look Refinement::look_at(Triangle t) const {
-  const Fit fit = metric_.fit(tin_.corners(t), {});
+Refinement::Look Refinement::look_at(tin::Triangle t) const {
+  const metric::Fit fit = metric_.fit(tin_.corners(t), {});
   return {metric_.find_candidate(tin_.corners(t), fit), fit.scanned};
 }
 
-void Refinement::take(Triangle t, const std::optional<Candidate>& candidate) {
+void Refinement::take(tin::Triangle t, const std::optional<metric::Candidate>& candidate) {
   if (candidate) {
     candidates_->set(t, *candidate);
   } else {
@@ -37,7 +37,7 @@ void Refinement::take(Triangle t, const std::optional<Candidate>& candidate) {
   }
 }
 
-void Refinement::rescan(Triangle t) {
+void Refinement::rescan(tin::Triangle t) {
   if (tin_.is_outside(t)) return take(t, std::nullopt);
   if (rule_) return take(t, metric_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t)));
   const Look look = look_at(t);
@@ -46,10 +46,10 @@ void Refinement::rescan(Triangle t) {
   take(t, look.candidate);
 }
 
-void Refinement::scan(std::span<const Triangle> triangles, int threads) {
+void Refinement::scan(std::span<const tin::Triangle> triangles, int threads) {
   struct Found {
-    Triangle triangle;
-    Candidate candidate;
+    tin::Triangle triangle;
+    metric::Candidate candidate;
   };
   struct Part {
     std::vector<Found> found;
@@ -59,7 +59,8 @@ void Refinement::scan(std::span<const Triangle> triangles, int threads) {
   std::vector<Part> parts((triangles.size() + kTogether - 1) / kTogether);
   parallel_for(parts.size(), threads, [&](std::size_t i) {
     Part& part = parts[i];
-    for (const Triangle t : triangles.subspan(i * kTogether, std::min(kTogether, triangles.size() - i * kTogether))) {
+    for (const tin::Triangle t :
+         triangles.subspan(i * kTogether, std::min(kTogether, triangles.size() - i * kTogether))) {
       if (tin_.is_outside(t)) continue;
       const Look look = look_at(t);
       part.samples += look.samples;
@@ -76,36 +77,36 @@ void Refinement::scan(std::span<const Triangle> triangles, int threads) {
 
 void Refinement::rescan_all() {
   candidates_->grow(tin_.triangle_count());
-  for (Triangle t = 0; t < tin_.triangle_count(); ++t) rescan(t);
+  for (tin::Triangle t = 0; t < tin_.triangle_count(); ++t) rescan(t);
 }
 
-std::uint32_t Refinement::gain(const Triangulation::Location& location) const {
-  const auto counts = [this](HalfEdge h) { return h != kNone && !tin_.is_outside(h / 3) ? 1u : 0u; };
+std::uint32_t Refinement::gain(const tin::Triangulation::Location& location) const {
+  const auto counts = [this](tin::HalfEdge h) { return h != tin::kNone && !tin_.is_outside(h / 3) ? 1u : 0u; };
   switch (location.kind) {
-    case Triangulation::Location::Kind::kInside:
+    case tin::Triangulation::Location::Kind::kInside:
       return 2 * counts(location.edge);
-    case Triangulation::Location::Kind::kOnEdge:
+    case tin::Triangulation::Location::Kind::kOnEdge:
       return counts(location.edge) + counts(tin_.twin(location.edge));
-    case Triangulation::Location::Kind::kOnVertex:
+    case tin::Triangulation::Location::Kind::kOnVertex:
       break;
   }
   return 0;
 }
 
 std::uint32_t Refinement::next_gain() const {
-  const Triangle t = candidates_->worst();
+  const tin::Triangle t = candidates_->worst();
   return gain(tin_.locate_in(candidates_->candidate(t).at, t));
 }
 
 void Refinement::insert_worst() {
-  const Triangle t = candidates_->worst();
+  const tin::Triangle t = candidates_->worst();
   const Point p = candidates_->candidate(t).at;
   insert_at(p, tin_.locate_in(p, t));
 }
 
 void Refinement::insert(Point p) { insert_at(p, tin_.locate(p, tin_.last_touched())); }
 
-void Refinement::add(Point p, Triangulation::Location location) {
+void Refinement::add(Point p, tin::Triangulation::Location location) {
   inside_ += gain(location);
   if (rule_) {
     rule_->insert(tin_, p, location);
@@ -116,11 +117,11 @@ void Refinement::add(Point p, Triangulation::Location location) {
   candidates_->grow(tin_.triangle_count());
 }
 
-void Refinement::insert_at(Point p, Triangulation::Location location) {
+void Refinement::insert_at(Point p, tin::Triangulation::Location location) {
   add(p, location);
   ++passes_;
   if (algorithm_ == Algorithm::kBruteForce) return rescan_all();
-  for (const Triangle t : star_) rescan(t);
+  for (const tin::Triangle t : star_) rescan(t);
 }
 
 std::vector<Refinement::BatchCandidate> Refinement::collect(const Batch& batch) const {
@@ -128,19 +129,19 @@ std::vector<Refinement::BatchCandidate> Refinement::collect(const Batch& batch) 
   if (done()) return found;
   std::vector<std::uint32_t> ids;
   candidates_->collect(batch.rule == Batch::Rule::kFraction ? batch.fraction * worst_error() : 0, ids);
-  for (const Triangle t : ids) found.push_back({candidates_->candidate(t), t});
+  for (const tin::Triangle t : ids) found.push_back({candidates_->candidate(t), t});
   sort_rarely(found, [](const BatchCandidate& a, const BatchCandidate& b) {
     if (!(a.candidate.at == b.candidate.at) || a.candidate.error != b.candidate.error)
-      return is_worse(a.candidate, b.candidate);
+      return metric::is_worse(a.candidate, b.candidate);
     return a.triangle < b.triangle;
   });
   return found;
 }
 
-void Refinement::insert_unseen(Point p, Triangle hint) {
+void Refinement::insert_unseen(Point p, tin::Triangle hint) {
   add(p, tin_.locate(p, hint));
   changed_.resize(tin_.triangle_count(), 0);
-  for (const Triangle t : star_) {
+  for (const tin::Triangle t : star_) {
     if (changed_[t] == 0) unseen_.push_back(t);
     changed_[t] = 1;
   }
@@ -148,7 +149,7 @@ void Refinement::insert_unseen(Point p, Triangle hint) {
 
 void Refinement::rescan_changed() {
   ++passes_;
-  for (const Triangle t : unseen_) {
+  for (const tin::Triangle t : unseen_) {
     changed_[t] = 0;
     if (algorithm_ != Algorithm::kBruteForce) rescan(t);
   }
@@ -165,4 +166,4 @@ Work Refinement::work() const {
   return work;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -24,7 +24,7 @@
 #include "scarp/run.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 class Refinement {
  public:
@@ -35,7 +35,7 @@ class Refinement {
   };
   /// The metric and `tin` must outlive this; no other code may change them. Edges are Delaunay, or data-dependent if
   /// `edges` requests it. Triangles of `tin` do not change until a point is inserted.
-  Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
+  Refinement(const metric::ErrorMetric& metric, tin::Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
              const EdgeRule& edges = {}, Start start = Start::kScan);
 
   /// True if no sample breaks its bound.
@@ -43,7 +43,7 @@ class Refinement {
   /// Importance of the sample to be inserted next; the metric's goal if done().
   double worst_error() const { return done() ? metric_.goal() : candidates_->candidate(candidates_->worst()).error; }
   /// True if no half-edge ids are available for another insertion (1,431 million triangles).
-  bool is_full() const { return tin_.triangle_count() > kNone / 3 - 2; }
+  bool is_full() const { return tin_.triangle_count() > tin::kNone / 3 - 2; }
   /// Number of triangles that insert_worst() would add to the domain. REQUIRES: !done().
   std::uint32_t next_gain() const;
   /// REQUIRES: !done().
@@ -53,53 +53,53 @@ class Refinement {
   /// Inserts a given sample and rescans around it. REQUIRES: gain_at(p) > 0.
   void insert(Point p);
   /// The same at a known location.
-  void insert_at(Point p, Triangulation::Location location);
+  void insert_at(Point p, tin::Triangulation::Location location);
   /// Triangles around the last inserted vertex: all that its insertion changed.
-  const std::vector<Triangle>& changed() const { return star_; }
+  const std::vector<tin::Triangle>& changed() const { return star_; }
   /// From now on, edges follow this rule instead of the Delaunay property. It must outlive this. REQUIRES: no EdgeRule.
-  void follow(FlipRule* flips) { flips_ = flips; }
+  void follow(tin::FlipRule* flips) { flips_ = flips; }
 
   /// The candidates that a batch would insert now, worst first; empty if done(). A sample on an edge may occur twice.
   struct BatchCandidate {
-    Candidate candidate;
-    Triangle triangle;
+    metric::Candidate candidate;
+    tin::Triangle triangle;
   };
   std::vector<BatchCandidate> collect(const Batch& batch) const;
   /// Inserts a sample without scanning the triangles around it until rescan_changed().
-  void insert_unseen(Point p, Triangle hint);
+  void insert_unseen(Point p, tin::Triangle hint);
   /// True if the triangle was changed since the last rescan_changed().
-  bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
-  std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
+  bool has_changed(tin::Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
+  std::uint32_t gain_near(Point p, tin::Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
   /// Scans each of the triangles, whose fits are otherwise unknown, once. REQUIRES: on several threads, a metric that
   /// they may query at the same time, and no EdgeRule.
-  void scan(std::span<const Triangle> triangles, int threads = 1);
+  void scan(std::span<const tin::Triangle> triangles, int threads = 1);
 
   std::uint64_t triangle_count() const { return inside_; }
   Work work() const;
 
  private:
-  void add(Point p, Triangulation::Location location);
+  void add(Point p, tin::Triangulation::Location location);
   /// The result of scanning a triangle.
   struct Look {
-    std::optional<Candidate> candidate;
+    std::optional<metric::Candidate> candidate;
     std::uint64_t samples = 0;
   };
-  Look look_at(Triangle t) const;
-  void take(Triangle t, const std::optional<Candidate>& candidate);
-  void rescan(Triangle t);
+  Look look_at(tin::Triangle t) const;
+  void take(tin::Triangle t, const std::optional<metric::Candidate>& candidate);
+  void rescan(tin::Triangle t);
   void rescan_all();
-  std::uint32_t gain(const Triangulation::Location& location) const;
+  std::uint32_t gain(const tin::Triangulation::Location& location) const;
 
-  const ErrorMetric& metric_;
-  Triangulation& tin_;
+  const metric::ErrorMetric& metric_;
+  tin::Triangulation& tin_;
   Algorithm algorithm_;
   std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay, or by flips_
-  FlipRule* flips_ = nullptr;
+  tin::FlipRule* flips_ = nullptr;
   std::unique_ptr<CandidateStore> candidates_;
-  std::vector<Triangle> star_, unseen_;  // changed by the last insertion, and by insertions not rescanned yet
+  std::vector<tin::Triangle> star_, unseen_;  // changed by the last insertion, and by insertions not rescanned yet
   std::vector<std::uint8_t> changed_;
   std::uint64_t inside_ = 0, samples_ = 0, triangles_ = 0, passes_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -8,7 +8,7 @@
 
 #include "refine/scattered.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
@@ -24,46 +24,46 @@ bool is_thick(Point a, Point b, Point c) {
 
 }  // namespace
 
-class ScatteredRefinement::FlatRule final : public FlipRule {
+class ScatteredRefinement::FlatRule final : public tin::FlipRule {
  public:
   FlatRule(ScatteredRefinement& refinement, const std::vector<bool>& is_marked)
       : own_(refinement), is_marked_(is_marked) {}
 
-  bool is_flat(const std::array<Vertex, 3>& corners) const {
+  bool is_flat(const std::array<tin::Vertex, 3>& corners) const {
     const auto height = [&](std::size_t k) { return own_.domain_.height(corners[k], own_.heights_); };
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t point = own_.domain_.point_of[corners[k]];
-      if (point == kNone || !is_marked_[point] || height(k) != height(0)) return false;
+      if (point == tin::kNone || !is_marked_[point] || height(k) != height(0)) return false;
     }
     return true;
   }
-  bool is_flat(Triangle t) const {
-    const Triangulation& tin = own_.domain_.tin;
+  bool is_flat(tin::Triangle t) const {
+    const tin::Triangulation& tin = own_.domain_.tin;
     return is_flat({tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)});
   }
 
-  bool should_flip(const Triangulation& tin, HalfEdge h) override {
-    const HalfEdge g = tin.twin(h);
-    const Triangle t = h / 3, u = g / 3;
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override {
+    const tin::HalfEdge g = tin.twin(h);
+    const tin::Triangle t = h / 3, u = g / 3;
     if (tin.is_outside(t) || tin.is_outside(u)) return false;
     const int before = is_flat(t) + is_flat(u);
     if (before == 0) return false;
-    const Vertex a = tin.origin(h), b = tin.origin(g), c = tin.origin(Triangulation::previous(h)),
-                 d = tin.origin(Triangulation::previous(g));
-    const std::array<Vertex, 3> one{c, d, b}, other{d, c, a};
+    const tin::Vertex a = tin.origin(h), b = tin.origin(g), c = tin.origin(tin::Triangulation::previous(h)),
+                      d = tin.origin(tin::Triangulation::previous(g));
+    const std::array<tin::Vertex, 3> one{c, d, b}, other{d, c, a};
     if (is_flat(one) + is_flat(other) >= before) return false;
     const Point pc = tin.point(c), pd = tin.point(d);
     if (!is_thick(pc, pd, tin.point(b)) || !is_thick(pd, pc, tin.point(a))) return false;
     const Wedge wedges[] = {own_.wedge_of(t, one), own_.wedge_of(u, other)};
     std::array<std::vector<std::uint32_t>, 2> lists;
-    for (const Triangle triangle : {t, u}) {
-      for (std::uint32_t point = own_.first_[triangle]; point != kNone; point = own_.next_[point]) {
+    for (const tin::Triangle triangle : {t, u}) {
+      for (std::uint32_t point = own_.first_[triangle]; point != tin::kNone; point = own_.next_[point]) {
         const std::size_t side = orient(pc, pd, own_.points_.at[point]) >= 0 ? 0 : 1;
         if (breaks(wedges[side], point)) return false;
         lists[side].push_back(point);
       }
     }
-    own_.first_[t] = own_.first_[u] = kNone;
+    own_.first_[t] = own_.first_[u] = tin::kNone;
     for (std::size_t side = 0; side < 2; ++side) {
       std::uint32_t& first = own_.first_[wedges[side].triangle];
       for (const std::uint32_t point : lists[side]) {
@@ -87,15 +87,15 @@ class ScatteredRefinement::FlatRule final : public FlipRule {
 
 std::uint64_t ScatteredRefinement::flip_flats(const std::vector<bool>& is_marked) {
   FlatRule rule(*this, is_marked);
-  Triangulation& tin = domain_.tin;
-  std::vector<HalfEdge> edges;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.twin(h) != kNone && h < tin.twin(h)) edges.push_back(h);
+  tin::Triangulation& tin = domain_.tin;
+  std::vector<tin::HalfEdge> edges;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) != tin::kNone && h < tin.twin(h)) edges.push_back(h);
   }
   tin.improve(edges, rule, std::numeric_limits<std::size_t>::max());
   std::uint64_t flats = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) flats += !tin.is_outside(t) && rule.is_flat(t);
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) flats += !tin.is_outside(t) && rule.is_flat(t);
   return flats;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -10,14 +10,16 @@
 #include "grid/raster.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// Algorithm I (section 4.1): before each insertion, test every sample against every triangle that contains it. Inserts
 /// until no sample exceeds the threshold or `most` points are inserted. Returns the points in order of insertion.
-std::vector<Point> insert_by_brute_force(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
+std::vector<Point> insert_by_brute_force(const grid::Raster& raster, tin::Triangulation& tin, double threshold,
+                                         std::size_t most);
 
 /// Algorithm II (section 4.2): each triangle stores its candidate. Only triangles around the new vertex are tested
 /// again. A scan of all triangles finds the worst candidate.
-std::vector<Point> insert_by_local_search(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
+std::vector<Point> insert_by_local_search(const grid::Raster& raster, tin::Triangulation& tin, double threshold,
+                                          std::size_t most);
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -8,7 +8,7 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// A window of the raster, corners included. Windows of neighbours share a row or a column of samples.
 struct TileWindow {
@@ -23,7 +23,7 @@ class Tile {
   /// Loads every `step`-th sample of a tile, from the first on. REQUIRES: at least two such samples each way.
   void load_coarse(const Tile& fine, std::int32_t step);
 
-  const TileView& view() const { return view_; }
+  const geom::TileView& view() const { return view_; }
   bool is_whole() const { return nodata_ == 0; }
   float largest_height() const { return largest_height_; }  ///< largest magnitude of valid samples
 
@@ -33,9 +33,9 @@ class Tile {
   void fill_blocks();
 
   Array<float> samples_, low_, high_;
-  TileView view_;
+  geom::TileView view_;
   std::uint64_t nodata_ = 0;
   float largest_height_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::refine {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr double kFewVertices = 500;  // in a tile: too few to gain anything
 constexpr std::int32_t kLooks = 48;  // per side
 
 /// The growth of bends from `distance` to twice that; infinite if unknown.
-double growth_of_bends(const TileView& tile, std::int32_t distance) {
+double growth_of_bends(const geom::TileView& tile, std::int32_t distance) {
   const std::int32_t far = 2 * distance;
   const std::int32_t cols = tile.cols - 2 * far, rows = tile.rows - 2 * far;
   if (std::min(cols, rows) < 1) return HUGE_VAL;
@@ -38,11 +38,11 @@ double growth_of_bends(const TileView& tile, std::int32_t distance) {
 
 }  // namespace
 
-TileOrder choose_order(const TileView& tile, double density) {
+TileOrder choose_order(const geom::TileView& tile, double density) {
   if (density >= kDense || density * tile.cols * tile.rows < kFewVertices) return TileOrder::kDominant;
   const double growth = growth_of_bends(tile, std::max(1, static_cast<std::int32_t>(1 / std::sqrt(density) + 0.5)));
   if (growth < kRough) return TileOrder::kLazyOne;
   return growth < kModerate ? TileOrder::kLazyHalf : TileOrder::kDominant;
 }
 
-}  // namespace scarp
+}  // namespace scarp::refine

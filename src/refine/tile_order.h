@@ -11,11 +11,11 @@
 
 #include "geom/tile_view.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 enum class TileOrder { kDominant, kLazyHalf, kLazyOne };
 
 /// Depends only on the tile's samples and on `density`, the expected vertices per sample.
-TileOrder choose_order(const TileView& tile, double density);
+TileOrder choose_order(const geom::TileView& tile, double density);
 
-}  // namespace scarp
+}  // namespace scarp::refine

@@ -10,16 +10,16 @@
 #include "metric/height_metric.h"
 #include "tin/tile_mesh.h"
 
-namespace scarp {
+namespace scarp::refine {
 
 /// The candidate of a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point. So
 /// the larger key is the larger error, or the first point in raster order among equal errors; 0: no candidate.
-constexpr std::int64_t candidate_key(float error, TilePoint at) {
+constexpr std::int64_t candidate_key(float error, geom::TilePoint at) {
   return error > 0 ? static_cast<std::int64_t>(std::uint64_t{bit_cast<std::uint32_t>(error)} << 32 |
                                                static_cast<std::uint32_t>(~at))
                    : 0;
 }
-constexpr TilePoint candidate_of(std::int64_t key) { return ~static_cast<TilePoint>(key); }
+constexpr geom::TilePoint candidate_of(std::int64_t key) { return ~static_cast<geom::TilePoint>(key); }
 
 /// Sides of a tile that it shares with a neighbour.
 struct SharedSides {
@@ -31,10 +31,10 @@ struct SharedSides {
 class TileScanner {
  public:
   /// The tile's samples must outlive this. REQUIRES: each is at most kMaxScanHeight in magnitude.
-  TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels = scan_kernels());
+  TileScanner(const geom::TileView& tile, double threshold, const geom::ScanKernels& kernels = geom::scan_kernels());
 
   /// Sets candidate_key() of each triangle that is not outside. `hints`: see ScanKernels::scan.
-  void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const TilePoint> hints);
+  void scan(tin::TileMesh& mesh, std::span<const tin::TileMesh::Id> triangles, std::span<const geom::TilePoint> hints);
 
   /// Sets the sides on which no sample can break its bound, whichever points are inserted. If exact arithmetic fails
   /// there (for heights whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
@@ -46,19 +46,19 @@ class TileScanner {
   std::uint64_t triangles_scanned() const { return triangles_; }
 
  private:
-  void settle(TileMesh::Record& record);
+  void settle(tin::TileMesh::Record& record);
   bool is_on_shared_side(Point p) const;
 
-  const ScanKernels& kernels_;
-  TileView tile_;
+  const geom::ScanKernels& kernels_;
+  geom::TileView tile_;
   double threshold_;
-  HeightMetric metric_;  // decides if float32 cannot
+  metric::HeightMetric metric_;  // decides if float32 cannot
   SharedSides shared_;
   bool has_given_up_ = false;
-  std::vector<std::array<TilePoint, 3>> corners_;
-  std::vector<TileMesh::Id> ids_;
-  std::vector<ScanHit> hits_;
+  std::vector<std::array<geom::TilePoint, 3>> corners_;
+  std::vector<tin::TileMesh::Id> ids_;
+  std::vector<geom::ScanHit> hits_;
   std::uint64_t samples_ = 0, triangles_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::refine

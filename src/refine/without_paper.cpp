@@ -7,22 +7,22 @@
 
 namespace scarp {
 
-Result<void> Criterion::check_strategy() const {
+Result<void> metric::Criterion::check_strategy() const {
   if (options_->strategy == Strategy{}) return {};
   return fail(ErrorKind::kUsage, "this build of Scarp knows no strategies of the 1995 paper: leave them out");
 }
 
-bool has_raster_feature(const Importance&) { return false; }
-double damped(double feature, Importance::Damping) { return feature; }
-std::vector<float> measure_feature(const Raster&, const Importance&) { return {}; }
-std::vector<Point> rank_samples(const Raster&, const std::vector<float>&) { return {}; }
+bool metric::has_raster_feature(const Importance&) { return false; }
+double metric::damped(double feature, Importance::Damping) { return feature; }
+std::vector<float> metric::measure_feature(const grid::Raster&, const Importance&) { return {}; }
+std::vector<Point> metric::rank_samples(const grid::Raster&, const std::vector<float>&) { return {}; }
 
-DataDependentRule::DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule)
+refine::DataDependentRule::DataDependentRule(const metric::ErrorMetric& metric, const EdgeRule& rule)
     : metric_(metric), rule_(rule), threshold_(0), cache_(metric, false, 0) {}
-bool DataDependentRule::should_flip(const Triangulation&, HalfEdge) { return false; }
-Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Location location) {
+bool refine::DataDependentRule::should_flip(const tin::Triangulation&, tin::HalfEdge) { return false; }
+tin::Vertex refine::DataDependentRule::insert(tin::Triangulation& tin, Point p, tin::Triangulation::Location location) {
   return tin.insert(p, location, this);
 }
-Work settle_edges(Triangulation&, const ErrorMetric&, const EdgeRule&, bool) { return {}; }
+Work refine::settle_edges(tin::Triangulation&, const metric::ErrorMetric&, const EdgeRule&, bool) { return {}; }
 
 }  // namespace scarp

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace scarp {
+namespace scarp::shape {
 
 PlanMetric::PlanMetric(const std::array<double, 6>& affine, std::int32_t steps) {
   const double scale = 1.0 / steps, determinant = affine[1] * affine[5] - affine[2] * affine[4];
@@ -37,7 +37,7 @@ double PlanMetric::dot(Point apex, Point a, Point b) const {
 }
 
 bool PlanMetric::is_in_circle(const std::array<Point, 3>& corners, Point d) const {
-  if (is_similar_) return in_circle(corners[0], corners[1], corners[2], d) > 0;
+  if (is_similar_) return geom::in_circle(corners[0], corners[1], corners[2], d) > 0;
   // The frame may mirror triangles, so signs come from offsets on the lattice, and squares from the plan.
   std::array<double, 3> x, y, squares;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -54,19 +54,19 @@ bool PlanMetric::is_in_circle(const std::array<Point, 3>& corners, Point d) cons
   return sum > 1e-13 * size;
 }
 
-bool PlanDelaunay::should_flip(const Triangulation& tin, HalfEdge h) {
-  const HalfEdge g = tin.twin(h);
+bool PlanDelaunay::should_flip(const tin::Triangulation& tin, tin::HalfEdge h) {
+  const tin::HalfEdge g = tin.twin(h);
   const std::array<Point, 3> corners = tin.corners(h / 3);
   const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(g)),
-              c = tin.point(tin.origin(Triangulation::previous(h))),
-              d = tin.point(tin.origin(Triangulation::previous(g)));
+              c = tin.point(tin.origin(tin::Triangulation::previous(h))),
+              d = tin.point(tin.origin(tin::Triangulation::previous(g)));
   return metric_.is_in_circle(corners, d) && orient(c, d, b) > 0 && orient(d, c, a) > 0;
 }
 
-void restore_delaunay(Triangulation& tin, PlanDelaunay& rule) {
-  std::vector<HalfEdge> edges;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.twin(h) != kNone && h < tin.twin(h)) edges.push_back(h);
+void restore_delaunay(tin::Triangulation& tin, PlanDelaunay& rule) {
+  std::vector<tin::HalfEdge> edges;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) != tin::kNone && h < tin.twin(h)) edges.push_back(h);
   }
   tin.improve(edges, rule, std::numeric_limits<std::size_t>::max());
 }
@@ -81,4 +81,4 @@ SquaredAngle squares_of(double degrees) {
   return {sine * sine, 1 - sine * sine};
 }
 
-}  // namespace scarp
+}  // namespace scarp::shape

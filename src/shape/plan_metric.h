@@ -6,7 +6,7 @@
 
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::shape {
 
 /// Offsets of lattice points in an affine frame. Uses only IEEE arithmetic and square roots, which are the same on
 /// every machine.
@@ -35,17 +35,17 @@ class PlanMetric {
 };
 
 /// Flips towards Delaunay edges in that frame.
-class PlanDelaunay final : public FlipRule {
+class PlanDelaunay final : public tin::FlipRule {
  public:
   explicit PlanDelaunay(const PlanMetric& metric) : metric_(metric) {}
-  bool should_flip(const Triangulation& tin, HalfEdge h) override;
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override;
 
  private:
   const PlanMetric& metric_;
 };
 
 /// Flips free edges until all are Delaunay.
-void restore_delaunay(Triangulation& tin, PlanDelaunay& rule);
+void restore_delaunay(tin::Triangulation& tin, PlanDelaunay& rule);
 
 /// sin² and cos² of an angle of 0 … 90 degrees, by series, since C libraries differ in the last bit.
 struct SquaredAngle {
@@ -53,4 +53,4 @@ struct SquaredAngle {
 };
 SquaredAngle squares_of(double degrees);
 
-}  // namespace scarp
+}  // namespace scarp::shape

@@ -9,7 +9,7 @@
 #include "base/point.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::shape {
 
 class ShapeBench {
  public:
@@ -22,11 +22,11 @@ class ShapeBench {
   /// REQUIRES: !done().
   virtual void insert_worst() = 0;
   /// Inserts a vertex in a triangle or on a free edge. False where the surface has no height.
-  virtual bool insert(Point p, const Triangulation::Location& location) = 0;
+  virtual bool insert(Point p, const tin::Triangulation::Location& location) = 0;
   /// Inserts a vertex on an edge or next to it, with the height at this share of the way along the edge.
-  virtual void insert_on_edge(Point p, HalfEdge h, double share) = 0;
+  virtual void insert_on_edge(Point p, tin::HalfEdge h, double share) = 0;
   /// The triangles around the vertex that was inserted last; no others changed.
-  virtual const std::vector<Triangle>& changed() const = 0;
+  virtual const std::vector<tin::Triangle>& changed() const = 0;
   virtual std::uint64_t samples_scanned() const = 0;
   virtual std::uint64_t triangles_scanned() const = 0;
 
@@ -34,7 +34,7 @@ class ShapeBench {
   /// scan(): finds a triangle's samples there that break their bound.
   virtual bool is_streamed() const { return false; }
   virtual void hold(std::size_t /*band*/) {}
-  virtual void scan(Triangle /*t*/) {}
+  virtual void scan(tin::Triangle /*t*/) {}
 };
 
-}  // namespace scarp
+}  // namespace scarp::shape

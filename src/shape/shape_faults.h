@@ -9,15 +9,15 @@
 
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::shape {
 
 /// A fault. Order: too large triangles before too sharp ones, then larger excess before smaller, then shorter edges
 /// before longer.
 struct ShapeFault {
   bool is_long = false;
   double key = 0;  ///< larger first
-  Triangle triangle = 0;
-  std::array<Vertex, 3> corners{};
+  tin::Triangle triangle = 0;
+  std::array<tin::Vertex, 3> corners{};
 
   friend bool operator<(const ShapeFault& a, const ShapeFault& b) {
     if (a.is_long != b.is_long) return b.is_long;
@@ -63,19 +63,19 @@ class ShapeFaults {
 /// Triangles to process later, each once or a few times.
 class WaitingTriangles {
  public:
-  void push(Triangle t) {
+  void push(tin::Triangle t) {
     triangles_.push_back(t);
     if (triangles_.size() <= 2 * distinct_ + kFew) return;
     std::sort(triangles_.begin(), triangles_.end());
     triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
     distinct_ = triangles_.size();
   }
-  std::vector<Triangle> take() { return std::exchange(triangles_, {}); }
+  std::vector<tin::Triangle> take() { return std::exchange(triangles_, {}); }
 
  private:
   static constexpr std::size_t kFew = 1024;
-  std::vector<Triangle> triangles_;
+  std::vector<tin::Triangle> triangles_;
   std::size_t distinct_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::shape

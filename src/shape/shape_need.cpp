@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::shape {
 
-double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
+double least_triangles(const tin::Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,
                        const SizeField* sizes) {
   // Paths along edges of a Delaunay triangulation are at most 1.998 times the straight distance (G. Xia, "The stretch
   // factor of the Delaunay triangulation is less than 1.998", 2013).
@@ -17,7 +17,7 @@ double least_triangles(const Triangulation& tin, const PlanMetric& metric, const
   if (sizes != nullptr && *goals.grade > kFastest) sizes = nullptr;
   if (sizes == nullptr && std::isinf(fixed)) return 0;
   double count = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     const auto [a, b, c] = tin.corners(t);
     double longest = fixed;
@@ -37,7 +37,7 @@ double least_triangles(const Triangulation& tin, const PlanMetric& metric, const
 }
 
 Result<void> check_need(double triangles, const MemoryBudget& memory, std::uint64_t work) {
-  constexpr double kMost = kNone / 3;
+  constexpr double kMost = tin::kNone / 3;
   const auto count = [&] {
     return triangles < 1e6 ? fmt::format("{:.0f}", triangles) : fmt::format("{:.0f} million", triangles / 1e6);
   };
@@ -54,4 +54,4 @@ Result<void> check_need(double triangles, const MemoryBudget& memory, std::uint6
                   count(), std::ceil((needed + static_cast<double>(memory.taken)) / 1e6)));
 }
 
-}  // namespace scarp
+}  // namespace scarp::shape

@@ -19,12 +19,12 @@
 #include "shape/shape_need.h"
 #include "shape/size_field.h"
 
-namespace scarp {
+namespace scarp::shape {
 
 namespace {
 
 using Vector = PlanMetric::Vector;
-using Location = Triangulation::Location;
+using Location = tin::Triangulation::Location;
 
 constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, reserved for rounding of positions
 constexpr double kClosest = 1.0 / 32;    ///< in samples: least distance of vertices added for angles
@@ -38,8 +38,8 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 class ShapeRefiner {
  public:
   /// `last`: the last corner of the lattice's rectangle. `spacing`: distance of samples.
-  ShapeRefiner(ShapeBench& bench, Triangulation& tin, const ShapeTask& task, const PlanMetric& metric,
-               const Bands& bands, Point last, double spacing)
+  ShapeRefiner(ShapeBench& bench, tin::Triangulation& tin, const ShapeTask& task, const PlanMetric& metric,
+               const grid::Bands& bands, Point last, double spacing)
       : bench_(bench),
         bands_(bands),
         tin_(tin),
@@ -78,7 +78,7 @@ class ShapeRefiner {
 
  private:
   Result<void> sweep_all() {
-    for (Triangle t = 0; t < tin_.triangle_count(); ++t) enqueue(t);
+    for (tin::Triangle t = 0; t < tin_.triangle_count(); ++t) enqueue(t);
     return work_off();
   }
 
@@ -86,14 +86,14 @@ class ShapeRefiner {
   Result<void> sweep_bands() {
     const bool is_first = waiting_.empty();
     waiting_.assign(bands_.count(), {});
-    for (Triangle t = 0; t < tin_.triangle_count(); ++t) {
+    for (tin::Triangle t = 0; t < tin_.triangle_count(); ++t) {
       if (is_first ? !tin_.is_outside(t) : find_fault(t).has_value()) waiting_[bands_.at(row_of(t))].push(t);
     }
     for (band_ = 0; band_ < bands_.count(); ++band_) {
-      const std::vector<Triangle> here = waiting_[band_].take();
+      const std::vector<tin::Triangle> here = waiting_[band_].take();
       if (here.empty()) continue;
       bench_.hold(band_);
-      for (const Triangle t : here) {
+      for (const tin::Triangle t : here) {
         // A triangle that is no longer in the band was changed, and scanned then.
         if (is_first && bands_.at(row_of(t)) == band_) bench_.scan(t);
         enqueue(t);
@@ -128,37 +128,37 @@ class ShapeRefiner {
 
   // ---- Finding faults -----------------------------------------------------------------------------------------------
 
-  std::array<Vertex, 3> corners_of(Triangle t) const {
+  std::array<tin::Vertex, 3> corners_of(tin::Triangle t) const {
     return {tin_.origin(3 * t), tin_.origin(3 * t + 1), tin_.origin(3 * t + 2)};
   }
-  double square(HalfEdge h) const { return shapes_.square(h); }
-  HalfEdge shortest(Triangle t) const { return shapes_.shortest(t); }
-  bool is_wall(HalfEdge h) const { return shapes_.is_wall(h); }
+  double square(tin::HalfEdge h) const { return shapes_.square(h); }
+  tin::HalfEdge shortest(tin::Triangle t) const { return shapes_.shortest(t); }
+  bool is_wall(tin::HalfEdge h) const { return shapes_.is_wall(h); }
   /// The row of samples at the triangle's centre.
-  std::int32_t row_of(Triangle t) const {
+  std::int32_t row_of(tin::Triangle t) const {
     const auto [a, b, c] = tin_.corners(t);
-    return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
+    return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * grid::kLatticeSteps));
   }
-  Vertex opposite(HalfEdge h) const { return tin_.origin(Triangulation::previous(h)); }
+  tin::Vertex opposite(tin::HalfEdge h) const { return tin_.origin(tin::Triangulation::previous(h)); }
 
   /// The squared ratio of length to allowed length.
-  double excess(HalfEdge h) const {
+  double excess(tin::HalfEdge h) const {
     const double length2 = square(h);
     double excess = length2 / longest2_;
     if (sizes_) {
-      const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
+      const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(tin::Triangulation::next(h))));
       excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kShapeSlack) * size * size));
     }
     return excess;
   }
-  std::optional<ShapeFault> find_fault(Triangle t) const {
+  std::optional<ShapeFault> find_fault(tin::Triangle t) const {
     if (tin_.is_outside(t)) return std::nullopt;
     const double most = std::max({excess(3 * t), excess(3 * t + 1), excess(3 * t + 2)});
     if (most > 1) return ShapeFault{true, most, t, corners_of(t)};
     if (task_.goals.min_angle == 0 || !shapes_.is_sharp(t) || shapes_.is_forced(t)) return std::nullopt;
     return ShapeFault{false, -square(shortest(t)), t, corners_of(t)};
   }
-  void enqueue(Triangle t) {
+  void enqueue(tin::Triangle t) {
     const auto bad = find_fault(t);
     if (!bad) return;
     if (!bench_.is_streamed() || bands_.reaches(band_, row_of(t))) {
@@ -171,26 +171,26 @@ class ShapeRefiner {
   }
 
   /// True for an edge with surface on both sides.
-  bool is_line(HalfEdge h) const { return tin_.twin(h) != kNone && !tin_.is_outside(tin_.twin(h) / 3); }
+  bool is_line(tin::HalfEdge h) const { return tin_.twin(h) != tin::kNone && !tin_.is_outside(tin_.twin(h) / 3); }
 
   // ---- Repairing faults ---------------------------------------------------------------------------------------------
 
-  bool shorten(Triangle t) {
-    const HalfEdge h =
-        std::max({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return excess(a) < excess(b); });
+  bool shorten(tin::Triangle t) {
+    const tin::HalfEdge h = std::max({3 * t, 3 * t + 1, 3 * t + 2},
+                                     [&](tin::HalfEdge a, tin::HalfEdge b) { return excess(a) < excess(b); });
     if (is_wall(h)) return split_wall(h, kAnyLength);
     return insert_near(t, std::numeric_limits<double>::infinity(), least_for_size_) || split_free(h);
   }
-  bool blunt(Triangle t) {
+  bool blunt(tin::Triangle t) {
     return insert_near(t, off_centre_ * std::sqrt(square(shortest(t))), least_) ||
            insert_near(t, std::numeric_limits<double>::infinity(), least_);
   }
 
   /// Inserts a vertex towards the triangle's circumcentre, at most `reach` from its shortest edge and at least `least`
   /// from all other vertices. False if none was inserted.
-  bool insert_near(Triangle t, double reach, double least) {
-    const HalfEdge h = shortest(t);
-    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
+  bool insert_near(tin::Triangle t, double reach, double least) {
+    const tin::HalfEdge h = shortest(t);
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(tin::Triangulation::next(h))),
                 c = tin_.point(opposite(h));
     const Vector ab = metric_.between(a, b), ac = metric_.between(a, c);
     const double area = ab[0] * ac[1] - ab[1] * ac[0], ab2 = dot_of(ab, ab), ac2 = dot_of(ac, ac);
@@ -214,7 +214,7 @@ class ShapeRefiner {
       if (wanted[k] < 0 || wanted[k] > far[k]) share = std::min(share, (limit - from[k]) / (wanted[k] - from[k]));
     }
     std::int32_t step = 1;
-    while (step < kLatticeSteps && 2 * step <= radius * kLatticeSteps * kSnapShare) step *= 2;
+    while (step < grid::kLatticeSteps && 2 * step <= radius * grid::kLatticeSteps * kSnapShare) step *= 2;
     const auto snap = [&](std::size_t k) {
       const double at = std::floor((from[k] + share * (wanted[k] - from[k])) / step + 0.5) * step;
       return static_cast<std::int32_t>(std::clamp(at, 0.0, far[k]));
@@ -224,32 +224,33 @@ class ShapeRefiner {
 
   /// The triangle that contains p, or the wall that hides p from `from` in t.
   struct Sight {
-    Triangle triangle = kNone;
-    HalfEdge wall = kNone;
+    tin::Triangle triangle = tin::kNone;
+    tin::HalfEdge wall = tin::kNone;
   };
-  Sight look(Triangle t, const Vector& from, Point p) const {
+  Sight look(tin::Triangle t, const Vector& from, Point p) const {
     const Vector ahead{p.x - from[0], p.y - from[1]};
-    const auto is_left = [&](Vertex v) {
+    const auto is_left = [&](tin::Vertex v) {
       const Point q = tin_.point(v);
       return ahead[0] * (q.y - from[1]) - ahead[1] * (q.x - from[0]) > 0;
     };
-    HalfEdge entered = kNone;
+    tin::HalfEdge entered = tin::kNone;
     for (std::size_t step = 0; step < tin_.triangle_count(); ++step) {
-      HalfEdge exit = kNone;
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-        if (h == entered || orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))), p) >= 0)
+      tin::HalfEdge exit = tin::kNone;
+      for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        if (h == entered ||
+            orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(tin::Triangulation::next(h))), p) >= 0)
           continue;
         // If p is beyond two edges, the segment crosses one of them, left or right of their common corner.
-        if (exit == kNone) {
+        if (exit == tin::kNone) {
           exit = h;
-        } else if (Triangulation::next(exit) == h) {
+        } else if (tin::Triangulation::next(exit) == h) {
           exit = is_left(tin_.origin(h)) ? exit : h;
         } else {
           exit = is_left(tin_.origin(exit)) ? h : exit;
         }
       }
-      if (exit == kNone) return {t, kNone};
-      if (is_wall(exit)) return {kNone, exit};
+      if (exit == tin::kNone) return {t, tin::kNone};
+      if (is_wall(exit)) return {tin::kNone, exit};
       entered = tin_.twin(exit);
       t = entered / 3;
     }
@@ -260,43 +261,43 @@ class ShapeRefiner {
   /// first.
   struct Cavity {
     double nearest2 = std::numeric_limits<double>::infinity();
-    std::vector<HalfEdge> encroached;
+    std::vector<tin::HalfEdge> encroached;
   };
   Cavity cavity_of(Point p, const Location& location) {
     Cavity cavity;
     seen_.resize(tin_.triangle_count(), 0);
-    std::vector<Triangle> found{location.edge / 3};
+    std::vector<tin::Triangle> found{location.edge / 3};
     if (location.kind == Location::Kind::kOnEdge) found.push_back(tin_.twin(location.edge) / 3);
-    for (const Triangle t : found) seen_[t] = 1;
+    for (const tin::Triangle t : found) seen_[t] = 1;
     for (std::size_t k = 0; k < found.size(); ++k) {
-      for (HalfEdge h = 3 * found[k]; h < 3 * found[k] + 3; ++h) {
-        const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+      for (tin::HalfEdge h = 3 * found[k]; h < 3 * found[k] + 3; ++h) {
+        const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(tin::Triangulation::next(h)));
         cavity.nearest2 = std::min(cavity.nearest2, metric_.square(p, a));
         if (is_wall(h)) {
           if (metric_.dot(p, a, b) < 0) cavity.encroached.push_back(h);
           continue;
         }
-        const Triangle beyond = tin_.twin(h) / 3;
+        const tin::Triangle beyond = tin_.twin(h) / 3;
         if (seen_[beyond] != 0 || !metric_.is_in_circle(tin_.corners(beyond), p)) continue;
         seen_[beyond] = 1;
         found.push_back(beyond);
       }
     }
-    for (const Triangle t : found) seen_[t] = 0;
+    for (const tin::Triangle t : found) seen_[t] = 0;
     std::stable_sort(cavity.encroached.begin(), cavity.encroached.end(),
-                     [&](HalfEdge a, HalfEdge b) { return square(a) > square(b); });
+                     [&](tin::HalfEdge a, tin::HalfEdge b) { return square(a) > square(b); });
     return cavity;
   }
 
-  bool insert_free(Triangle t, const Vector& from, Point p, double least) {
+  bool insert_free(tin::Triangle t, const Vector& from, Point p, double least) {
     const Sight sight = look(t, from, p);
-    if (sight.wall != kNone) return split_wall(sight.wall, least);
-    if (sight.triangle == kNone) return false;
+    if (sight.wall != tin::kNone) return split_wall(sight.wall, least);
+    if (sight.triangle == tin::kNone) return false;
     const Location location = tin_.locate_in(p, sight.triangle);
     if (location.kind == Location::Kind::kOnVertex) return false;
     if (location.kind == Location::Kind::kOnEdge && is_wall(location.edge)) return split_wall(location.edge, least);
     const Cavity cavity = cavity_of(p, location);
-    for (const HalfEdge wall : cavity.encroached) {
+    for (const tin::HalfEdge wall : cavity.encroached) {
       if (split_wall(wall, least)) return true;
     }
     return cavity.nearest2 >= least * least && insert_in_surface(p, location);
@@ -308,15 +309,15 @@ class ShapeRefiner {
     return true;
   }
 
-  bool split_free(HalfEdge h) {
-    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+  bool split_free(tin::HalfEdge h) {
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(tin::Triangulation::next(h)));
     const auto p = beside({(double(a.x) + b.x) / 2, (double(a.y) + b.y) / 2}, h);
     return p && insert_in_surface(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
   /// The lattice point nearest to `wanted` with which the two triangles of an edge become four positive triangles.
-  std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
-    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
+  std::optional<Point> beside(const Vector& wanted, tin::HalfEdge h) const {
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(tin::Triangulation::next(h))),
                 c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
     const auto x = static_cast<std::int32_t>(std::floor(wanted[0])),
                y = static_cast<std::int32_t>(std::floor(wanted[1]));
@@ -335,25 +336,25 @@ class ShapeRefiner {
   }
 
   /// Halves a wall approximately if both halves have at least the least length. False if no vertex was inserted.
-  bool split_wall(HalfEdge h, double least) {
+  bool split_wall(tin::HalfEdge h, double least) {
     if (tin_.is_outside(h / 3)) h = tin_.twin(h);
     if (square(h) < 4 * least * least) return false;
-    const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
+    const tin::Vertex from = tin_.origin(h), to = tin_.origin(tin::Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
     // The outline of the valid data must not move. Along a cutline, few lattice points are exactly on the edge.
     std::optional<Point> p;
     if (!is_line(h)) p = on_outline(a, b, share);
-    const bool bends = !p && tin_.twin(h) != kNone;
+    const bool bends = !p && tin_.twin(h) != tin::kNone;
     std::pair<Point, Point> line{a, b};
     if (bends) {
-      for (const Vertex v : {from, to}) {
+      for (const tin::Vertex v : {from, to}) {
         if (const auto bent = lines_.find(v); bent != lines_.end()) line = bent->second;
       }
       p = beside_line(line, h, share, least == kAnyLength ? 0.25 : 0);
     }
     if (!p) return false;
-    if (bends) lines_[static_cast<Vertex>(tin_.vertex_count())] = line;
+    if (bends) lines_[static_cast<tin::Vertex>(tin_.vertex_count())] = line;
     bench_.insert_on_edge(*p, h, std::sqrt(metric_.square(a, *p) / square(h)));
     note_insertion();
     return true;
@@ -361,9 +362,10 @@ class ShapeRefiner {
 
   /// The lattice point beside() a line that contains the edge. Few lattice points are possible next to existing
   /// vertices on the line: returns the one nearest to the wanted share, at most `leeway` from it.
-  std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
+  std::optional<Point> beside_line(const std::pair<Point, Point>& line, tin::HalfEdge h, double share,
+                                   double leeway) const {
     constexpr int kTries = 512;
-    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(tin::Triangulation::next(h)));
     for (int k = 0; k < (leeway > 0 ? kTries : 1); ++k) {
       const double at = share + (k % 2 == 0 ? 1 : -1) * leeway * ((k + 1) / 2) * 2 / kTries;
       if (const auto p = beside(on_line(line, {a.x + at * (b.x - a.x), a.y + at * (b.y - a.y)}), h)) return p;
@@ -372,24 +374,24 @@ class ShapeRefiner {
   }
 
   /// One half; at an acute corner, the share that makes the length from the corner a power of two.
-  double share_of_split(HalfEdge h) const {
-    const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
+  double share_of_split(tin::HalfEdge h) const {
+    const tin::Vertex from = tin_.origin(h), to = tin_.origin(tin::Triangulation::next(h));
     const bool begins = is_acute(from, to), ends = is_acute(to, from);
     if (begins == ends) return 0.5;
     const double length = std::sqrt(square(h));
-    double shell = metric_.shorter_side() / kLatticeSteps;
+    double shell = metric_.shorter_side() / grid::kLatticeSteps;
     while (1.5 * shell < length / 2) shell *= 2;
     const double share = std::clamp(shell / length, 0.25, 0.75);
     return begins ? share : 1 - share;
   }
   /// True if another wall begins at v, less than 45 degrees from the one to w.
-  bool is_acute(Vertex v, Vertex w) const {
+  bool is_acute(tin::Vertex v, tin::Vertex w) const {
     const Point apex = tin_.point(v), end = tin_.point(w);
     bool found = false;
-    visit_around(tin_, out_[v], [&](HalfEdge out) {
+    visit_around(tin_, out_[v], [&](tin::HalfEdge out) {
       if (tin_.is_outside(out / 3)) return;
-      for (const auto& [side, u] : {std::pair{out, tin_.origin(Triangulation::next(out))},
-                                    std::pair{Triangulation::previous(out), opposite(out)}}) {
+      for (const auto& [side, u] : {std::pair{out, tin_.origin(tin::Triangulation::next(out))},
+                                    std::pair{tin::Triangulation::previous(out), opposite(out)}}) {
         if (u == w || !is_wall(side)) continue;
         const double squares = metric_.square(apex, end) * square(side);
         found = found || is_sharper(metric_.dot(apex, end, tin_.point(u)), squares, kAcute);
@@ -411,7 +413,7 @@ class ShapeRefiner {
     if (units < 2) return std::nullopt;
     const Point unit{(b.x - a.x) / units, (b.y - a.y) / units};
     std::int32_t step = 1;
-    while (step < kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
+    while (step < grid::kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
     // Multiples of the step are counted from the raster's corner, as for other lattice points.
     const std::int32_t begin = unit.x != 0 ? a.x * (unit.x < 0 ? -1 : 1) : a.y * (unit.y < 0 ? -1 : 1);
     const double at = std::floor((begin + share * units) / step + 0.5) * step - begin;
@@ -423,25 +425,25 @@ class ShapeRefiner {
 
   void note_all() {
     out_.resize(tin_.vertex_count());
-    for (HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
+    for (tin::HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
   }
   void note_insertion() {
     ++work_.insertions;
     out_.resize(tin_.vertex_count());
-    for (const Triangle t : bench_.changed()) {
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) out_[tin_.origin(h)] = h;
+    for (const tin::Triangle t : bench_.changed()) {
+      for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) out_[tin_.origin(h)] = h;
     }
     if (sizes_) {
       fallen_.clear();
       sizes_->update(bench_.changed(), out_, fallen_);
-      for (const Vertex v : fallen_) visit_around(tin_, out_[v], [&](HalfEdge h) { enqueue(h / 3); });
+      for (const tin::Vertex v : fallen_) visit_around(tin_, out_[v], [&](tin::HalfEdge h) { enqueue(h / 3); });
     }
-    for (const Triangle t : bench_.changed()) enqueue(t);
+    for (const tin::Triangle t : bench_.changed()) enqueue(t);
   }
 
   ShapeBench& bench_;
-  const Bands& bands_;
-  Triangulation& tin_;
+  const grid::Bands& bands_;
+  tin::Triangulation& tin_;
   const ShapeTask& task_;
   const PlanMetric& metric_;
   PlanShapes shapes_;
@@ -450,22 +452,22 @@ class ShapeRefiner {
   std::optional<SizeField> sizes_;
   ShapeFaults bad_;
   std::size_t band_ = 0;
-  double share_ = 1;                                           ///< fraction of bands processed
-  std::vector<WaitingTriangles> waiting_;                      ///< by band
-  std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
-  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< by vertex that halves a line: the line's ends
-  std::vector<Vertex> fallen_;
+  double share_ = 1;                                                ///< fraction of bands processed
+  std::vector<WaitingTriangles> waiting_;                           ///< by band
+  std::vector<tin::HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
+  std::unordered_map<tin::Vertex, std::pair<Point, Point>> lines_;  ///< by vertex that halves a line: the line's ends
+  std::vector<tin::Vertex> fallen_;
   std::vector<std::uint8_t> seen_;
   ShapeWork work_;
 };
 
 }  // namespace
 
-std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame) {
+std::optional<fit::ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame) {
   const auto& a = frame.affine;
   if (goals.grade || a[1] * a[2] + a[4] * a[5] != 0) return std::nullopt;
   const double width = std::sqrt(a[1] * a[1] + a[4] * a[4]), height = std::sqrt(a[2] * a[2] + a[5] * a[5]);
-  ShapeRule rule;
+  fit::ShapeRule rule;
   rule.by_angle = true;
   rule.aspect = height / width;
   // Without a smallest angle, any triangle with an area is valid, unless a shortest edge is requested, as for
@@ -474,23 +476,23 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   const double angle = goals.min_edge && goals.min_angle == 0 ? kUsualAngle : goals.min_angle;
   rule.floor = std::max(squares_of(angle + kShapeSlack).sine, std::numeric_limits<double>::min());
   if (goals.min_edge) {
-    const double shortest = *goals.min_edge / width * kLatticeSteps;
+    const double shortest = *goals.min_edge / width * grid::kLatticeSteps;
     rule.shortest_square = shortest * shortest * (1 + kShapeSlack);
     rule.edge_first = goals.min_angle == 0;
   }
   if (!goals.max_edge) return rule;
-  const double longest = *goals.max_edge / width * kLatticeSteps;
+  const double longest = *goals.max_edge / width * grid::kLatticeSteps;
   rule.longest_square = longest * longest * (1 - kShapeSlack);
   return rule;
 }
 
-Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
+Result<ShapeWork> refine_shapes(const grid::Raster& raster, tin::Triangulation& tin, grid::VertexLattice& lattice,
                                 const ShapeTask& task) {
-  const PlanMetric metric(task.affine, kLatticeSteps);
-  const Bands bands{raster.rows, std::max(task.rows_at_once / 2, 1)};
+  const PlanMetric metric(task.affine, grid::kLatticeSteps);
+  const grid::Bands bands{raster.rows, std::max(task.rows_at_once / 2, 1)};
   PlanDelaunay delaunay(metric);
   RasterBench bench(raster, tin, lattice, task, bands, delaunay);
-  const Point last{(raster.cols - 1) * kLatticeSteps, (raster.rows - 1) * kLatticeSteps};
+  const Point last{(raster.cols - 1) * grid::kLatticeSteps, (raster.rows - 1) * grid::kLatticeSteps};
   auto work = ShapeRefiner(bench, tin, task, metric, bands, last, metric.shorter_side()).run();
   if (work) lattice = bench.lattice(task.all_may_go);
   return work;
@@ -499,8 +501,8 @@ Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, Vertex
 namespace {
 
 /// A frame with samples that are kLatticeSteps steps of the points' lattice apart.
-Frame frame_of(const PointLattice& lattice) {
-  const double cell = kLatticeSteps * lattice.step;
+Frame frame_of(const grid::PointLattice& lattice) {
+  const double cell = grid::kLatticeSteps * lattice.step;
   Frame frame;
   frame.affine = {lattice.west, cell, 0, lattice.north, 0, -cell};
   return frame;
@@ -508,17 +510,17 @@ Frame frame_of(const PointLattice& lattice) {
 
 }  // namespace
 
-Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeGoals& goals, double threshold, std::span<const double> bounds,
-                                Reporter& reporter) {
+Result<ShapeWork> refine_shapes(const grid::SnappedPoints& points, std::span<const double> heights,
+                                refine::ScatteredDomain& domain, const ShapeGoals& goals, double threshold,
+                                std::span<const double> bounds, Reporter& reporter) {
   ShapeTask task{goals, frame_of(points.lattice).affine, threshold};
   task.progress = [&](double, std::uint64_t count, double error) -> Result<void> {
     if (!reporter.due() || reporter.report("shape", 0, count, error)) return {};
     return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
   };
   task.foresee = [](double triangles) { return check_need(triangles, {}, 0); };
-  const PlanMetric metric(task.affine, kLatticeSteps);
-  const Bands bands{1, 1};
+  const PlanMetric metric(task.affine, grid::kLatticeSteps);
+  const grid::Bands bands{1, 1};
   PlanDelaunay delaunay(metric);
   restore_delaunay(domain.tin, delaunay);
   PointBench bench(points, heights, domain, threshold, bounds);
@@ -527,13 +529,13 @@ Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const dou
   return ShapeRefiner(bench, domain.tin, task, metric, bands, last, spacing).run();
 }
 
-std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice) {
+std::optional<fit::ShapeRule> shape_rule(const ShapeGoals& goals, const grid::PointLattice& lattice) {
   return shape_rule(goals, frame_of(lattice));
 }
 
-ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Triangulation& tin,
-                          const PointLattice& lattice) {
-  return report_shapes(mesh, goals, count_losses(tin, kLatticeSteps, frame_of(lattice), goals));
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const tin::Triangulation& tin,
+                          const grid::PointLattice& lattice) {
+  return report_shapes(mesh, goals, count_losses(tin, grid::kLatticeSteps, frame_of(lattice), goals));
 }
 
-}  // namespace scarp
+}  // namespace scarp::shape

@@ -38,7 +38,7 @@
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::shape {
 
 struct ShapeTask {
   ShapeGoals goals;
@@ -54,7 +54,7 @@ struct ShapeTask {
   /// For a raster without samples: the borrowed field whose source has them, and the number of rows held at a time, at
   /// least 4. Bounds of samples then also come from windows; null: the threshold applies to all.
   const HeightField* field = nullptr;
-  const SourceBounds* source_bounds = nullptr;
+  const metric::SourceBounds* source_bounds = nullptr;
   std::int32_t rows_at_once = 0;
 };
 
@@ -67,23 +67,23 @@ struct ShapeWork {
 /// Fixed vertices remain fixed; vertices between samples become fixed unless vertices are free. Fails with kInput for
 /// too many triangles, and like progress and foresee; throws SourceFailure. REQUIRES: checked goals; sides of at most
 /// kMaxCoordinate / kLatticeSteps samples; an exact outline. Cost: expected O(log n) per insertion, without scanning.
-Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
+Result<ShapeWork> refine_shapes(const grid::Raster& raster, tin::Triangulation& tin, grid::VertexLattice& lattice,
                                 const ShapeTask& task);
 
 /// The same on scattered points. `domain` keeps its outline; vertices between points are free. `bounds`: as for
 /// ScatteredRefinement. Fails with kInput for too many triangles, and with kCancelled. REQUIRES: points with
 /// PointSteps::kFloat32 or kFit.
-Result<ShapeWork> refine_shapes(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
-                                const ShapeGoals& goals, double threshold, std::span<const double> bounds,
-                                Reporter& reporter);
+Result<ShapeWork> refine_shapes(const grid::SnappedPoints& points, std::span<const double> heights,
+                                refine::ScatteredDomain& domain, const ShapeGoals& goals, double threshold,
+                                std::span<const double> bounds, Reporter& reporter);
 
 /// Most bytes that refine_shapes() uses per vertex, including the mesh.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
 /// The rule that preserves the angles and edge lengths of refine_shapes() while vertices are removed and moved. Nothing
 /// if only insertion can preserve them: with a grade, or if rows and columns of the frame are not perpendicular.
-std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
-std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const PointLattice& lattice);
+std::optional<fit::ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
+std::optional<fit::ShapeRule> shape_rule(const ShapeGoals& goals, const grid::PointLattice& lattice);
 
 /// The effect of lines and outline on the other goals.
 struct ShapeLosses {
@@ -92,12 +92,13 @@ struct ShapeLosses {
   std::uint64_t short_edges = 0;   ///< edges with an end on lines or outline
 };
 /// `steps`: lattice steps per sample.
-ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Frame& frame, const ShapeGoals& goals);
+ShapeLosses count_losses(const tin::Triangulation& tin, std::int32_t steps, const Frame& frame,
+                         const ShapeGoals& goals);
 
 /// Shapes of a finished mesh. `losses`: those of its triangulation.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const ShapeLosses& losses);
 /// The same for points, on the lattice of `tin`.
-ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Triangulation& tin,
-                          const PointLattice& lattice);
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const tin::Triangulation& tin,
+                          const grid::PointLattice& lattice);
 
-}  // namespace scarp
+}  // namespace scarp::shape

@@ -9,29 +9,30 @@
 #include "shape/plan_shapes.h"
 #include "shape/shape_refinement.h"
 
-namespace scarp {
+namespace scarp::shape {
 
-ShapeLosses count_losses(const Triangulation& tin, std::int32_t steps, const Frame& frame, const ShapeGoals& goals) {
+ShapeLosses count_losses(const tin::Triangulation& tin, std::int32_t steps, const Frame& frame,
+                         const ShapeGoals& goals) {
   const PlanMetric metric(frame.affine, steps);
   const PlanShapes shapes(tin, metric, squares_of(goals.min_angle).cosine);
   const double shortest = goals.min_edge.value_or(0);
   std::vector<std::uint8_t> is_on_line(tin.vertex_count(), 0);
   const auto visit_edges = [&](auto&& visit) {
-    for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-      if (!tin.is_outside(h / 3)) visit(h, tin.origin(h), tin.origin(Triangulation::next(h)));
+    for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+      if (!tin.is_outside(h / 3)) visit(h, tin.origin(h), tin.origin(tin::Triangulation::next(h)));
     }
   };
-  visit_edges([&](HalfEdge h, Vertex v, Vertex w) {
+  visit_edges([&](tin::HalfEdge h, tin::Vertex v, tin::Vertex w) {
     if (shapes.is_wall(h)) is_on_line[v] = is_on_line[w] = 1;
   });
   ShapeLosses losses;
-  visit_edges([&](HalfEdge h, Vertex v, Vertex w) {
-    const HalfEdge g = tin.twin(h);
-    const bool is_first = g == kNone || tin.is_outside(g / 3) || h < g;
+  visit_edges([&](tin::HalfEdge h, tin::Vertex v, tin::Vertex w) {
+    const tin::HalfEdge g = tin.twin(h);
+    const bool is_first = g == tin::kNone || tin.is_outside(g / 3) || h < g;
     if (is_first && (is_on_line[v] | is_on_line[w]) != 0 && shapes.square(h) < shortest * shortest)
       ++losses.short_edges;
   });
-  for (Triangle t = 0; t < tin.triangle_count() && goals.min_angle > 0; ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count() && goals.min_angle > 0; ++t) {
     if (!shapes.is_sharp(t)) continue;
     const bool is_beside =
         (is_on_line[tin.origin(3 * t)] | is_on_line[tin.origin(3 * t + 1)] | is_on_line[tin.origin(3 * t + 2)]) != 0;
@@ -83,4 +84,4 @@ ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, const Shape
   return report;
 }
 
-}  // namespace scarp
+}  // namespace scarp::shape

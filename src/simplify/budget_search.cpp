@@ -13,7 +13,7 @@
 #include "simplify/pass_work.h"
 #include "simplify/search_progress.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -55,7 +55,8 @@ double power_between(const Sight& a, const Sight& b, double usual) {
 
 }  // namespace
 
-BudgetNumber::BudgetNumber(const SimplifyOptions& options) : options_(options), is_factor_(has_tolerances(options)) {}
+BudgetNumber::BudgetNumber(const SimplifyOptions& options)
+    : options_(options), is_factor_(metric::has_tolerances(options)) {}
 
 SimplifyOptions BudgetNumber::towards(double number) const {
   SimplifyOptions options = options_;
@@ -158,7 +159,7 @@ class BudgetSearch {
   Result<void> begin_with_least_mesh() {
     const double most = std::max(task_.most(), floor_);
     SCARP_TRY(auto&& least, run(number_.towards(most), {.factor = number_.factor_of(most), .refines_only = true}, 0.1));
-    const MeshSize size{least.mesh.vertex_count(), least.mesh.triangle_count()};
+    const pieces::MeshSize size{least.mesh.vertex_count(), least.mesh.triangle_count()};
     SCARP_RETURN_IF_ERROR(budget_.check(size, task_.least, ""));
     best_ = std::move(least);
     first_ = std::max(best_.judged_max_error, kLeast);
@@ -222,7 +223,7 @@ class BudgetSearch {
   Result<double> expect_by_refinement(double number) {
     SimplifyOptions refine = number_.towards(number);
     refine.output.normals = refine.output.uvs = false;
-    const Scale scale{.factor = number_.factor_of(number), .room = Budget(0, 0), .refines_only = true};
+    const pieces::Scale scale{.factor = number_.factor_of(number), .room = pieces::Budget(0, 0), .refines_only = true};
     const auto made = run(std::move(refine), scale, 0.05);
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(pace_.aim);
     SCARP_RETURN_IF_ERROR(made);
@@ -280,7 +281,7 @@ class BudgetSearch {
   /// Makes a run with the whole effort and keeps the better mesh.
   Result<void> look(double number) {
     ++runs_;
-    const Scale scale{.factor = number_.factor_of(number), .room = budget_, .refines_only = !has_effort_};
+    const pieces::Scale scale{.factor = number_.factor_of(number), .room = budget_, .refines_only = !has_effort_};
     auto made = run(number_.towards(number), scale, 0.35);
     if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
     const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
@@ -328,13 +329,13 @@ class BudgetSearch {
   StopReason stop_of(const Simplified& made) const {
     if (is_at_floor_ || made.judged_max_error <= floor_)
       return is_factor_ || options_.goals.max_error ? StopReason::kMaxError : StopReason::kExact;
-    const MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
+    const pieces::MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
     return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
   }
 
   bool is_better(const Simplified& made) const { return rank(options_, made) < rank(options_, best_); }
 
-  Result<Simplified> run(SimplifyOptions options, const Scale& scale, double share) {
+  Result<Simplified> run(SimplifyOptions options, const pieces::Scale& scale, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
     options.run.progress = progress_.of_run(!scale.refines_only);
     options.run.memory.taken += kMeshBytesPerVertex * best_.mesh.vertex_count();
@@ -363,7 +364,7 @@ class BudgetSearch {
 
   const SimplifyOptions& options_;
   const BudgetTask& task_;
-  Budget budget_;
+  pieces::Budget budget_;
   SearchProgress progress_;
   bool has_effort_;
   BudgetNumber number_;
@@ -395,9 +396,9 @@ Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTas
   }
   if (!made || !search.no_room() || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact)
     return made;
-  const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
+  const double used = pieces::Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
   if (used < kNearlyFull) return tl::unexpected(*search.no_room());
   return made;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

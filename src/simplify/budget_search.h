@@ -17,11 +17,11 @@
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// simplify() without a search: towards the bounds of `options`, changed by `scale`, whose line error is known. If
 /// BudgetTask::insertion_stops and the scale only refines, the run is towards budgets.
-using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, const Scale& scale)>;
+using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, const pieces::Scale& scale)>;
 
 class BudgetNumber {
  public:
@@ -40,7 +40,7 @@ class BudgetNumber {
 
 struct BudgetTask {
   RunOnce run;
-  EffortTraits traits = {};                    ///< the work of a run with the whole effort
+  pieces::EffortTraits traits = {};            ///< the work of a run with the whole effort
   bool insertion_stops = true;                 ///< insertion can stop at budgets
   std::function<double()> most = {};           ///< a number for which a run makes the least mesh
   std::string least = "the least mesh needs";  ///< subject of the error for a budget that the least mesh exceeds
@@ -67,4 +67,4 @@ Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTas
 
 inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -12,7 +12,7 @@
 #include "pieces/checks.h"
 #include "simplify/run.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -21,14 +21,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Throws SourceFailure.
 HeightRange read_range(const HeightField& field) {
   HeightRange range;
-  auto swept = sweep_rows(field, 0, [&](const RowRange& rows) -> Result<void> {
+  auto swept = grid::sweep_rows(field, 0, [&](const grid::RowRange& rows) -> Result<void> {
     HeightField part = field;
     part.samples = rows.samples.samples;
     part.rows = rows.samples.rows;
     range.add(height_range(part));
     return {};
   });
-  if (!swept) throw SourceFailure{swept.error()};
+  if (!swept) throw grid::SourceFailure{swept.error()};
   return range;
 }
 
@@ -70,7 +70,7 @@ ToleranceRange range_of(std::span<const float> values, const SampleSource* sourc
   for (int row = 0; row < field.rows; row += rows) {
     const int count = std::min(rows, field.rows - row);
     const auto read = source->read(0, row, field.cols, count, held.data(), field.cols);
-    if (!read) throw SourceFailure{read.error()};
+    if (!read) throw grid::SourceFailure{read.error()};
     const auto all =
         std::span<const float>(held).first(static_cast<std::size_t>(count) * static_cast<std::size_t>(field.cols));
     for (const float value : all) range.add(value);
@@ -80,11 +80,11 @@ ToleranceRange range_of(std::span<const float> values, const SampleSource* sourc
 
 /// A max error, or a factor of all tolerances, at which no sample needs a vertex for its bound, except samples with
 /// bound 0.
-double largest_number(const Recipe& recipe, const ToleranceRange& tolerances) {
+double largest_number(const pieces::Recipe& recipe, const ToleranceRange& tolerances) {
   const HeightField& field = recipe.field;
   const SimplifyOptions& options = recipe.options;
   const double error = largest_error(field, options);
-  if (has_tolerances(options)) {
+  if (metric::has_tolerances(options)) {
     const double max_error = options.goals.max_error.value_or(kInfinity);
     return error / (max_error > 0 ? std::min(max_error, tolerances.least) : tolerances.least);
   }
@@ -94,7 +94,7 @@ double largest_number(const Recipe& recipe, const ToleranceRange& tolerances) {
 }
 
 /// The subject of a refusal: the mesh for which every budget must have room.
-std::string name_least(const Recipe& recipe, bool has_zeros) {
+std::string name_least(const pieces::Recipe& recipe, bool has_zeros) {
   const char* zeros = has_zeros ? " and the samples with a tolerance of 0" : "";
   if (recipe.has_lines) return std::string("the lines and the outline of the valid data") + zeros + " alone need";
   if (recipe.options.quality.shape.any()) return std::string("the angles and edges") + zeros + " alone need";
@@ -103,17 +103,17 @@ std::string name_least(const Recipe& recipe, bool has_zeros) {
 
 }  // namespace
 
-BudgetTask make_budget_task(const Recipe& recipe) {
+BudgetTask make_budget_task(const pieces::Recipe& recipe) {
   const Tolerances& asked = recipe.options.tolerances;
   const ToleranceRange tolerances = range_of(asked.values, asked.source, recipe.field);
   const double reach = recipe.has_lines ? tolerances.largest : 0;
   BudgetTask task;
-  task.run = [&recipe, reach](const SimplifyOptions& options, const Scale& scale) -> Result<Simplified> {
-    SCARP_RETURN_IF_ERROR(check_values(recipe.field, options));
-    Scale with_lines = scale;
+  task.run = [&recipe, reach](const SimplifyOptions& options, const pieces::Scale& scale) -> Result<Simplified> {
+    SCARP_RETURN_IF_ERROR(pieces::check_values(recipe.field, options));
+    pieces::Scale with_lines = scale;
     with_lines.line_error = scale.factor * reach;
-    const Request request(options);
-    return run(Recipe(recipe.field, request, with_lines));
+    const metric::Request request(options);
+    return run(pieces::Recipe(recipe.field, request, with_lines));
   };
   task.traits = recipe.traits;
   task.insertion_stops = recipe.insertion_stops;
@@ -122,4 +122,4 @@ BudgetTask make_budget_task(const Recipe& recipe) {
   return task;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

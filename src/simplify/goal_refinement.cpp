@@ -9,10 +9,10 @@
 #include "refine/settle_edges.h"
 #include "simplify/pass_work.h"
 
-namespace scarp {
+namespace scarp::run {
 
-GoalRefinement::GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
-                               std::span<const Point> border, Reporter& reporter)
+GoalRefinement::GoalRefinement(const pieces::Recipe& recipe, const grid::Raster& raster,
+                               const metric::Criterion& criterion, std::span<const Point> border, Reporter& reporter)
     : recipe_(recipe),
       raster_(raster),
       options_(recipe.options),
@@ -23,14 +23,14 @@ GoalRefinement::GoalRefinement(const Recipe& recipe, const Raster& raster, const
 
 Result<void> GoalRefinement::start(Simplified& result) {
   const auto start = Clock::now();
-  SCARP_TRY(auto&& domain, build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
+  SCARP_TRY(auto&& domain, refine::build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
   take(std::move(domain));
   insert_points();
   result.passes.push_back(pass_of("domain", seconds_since(start)));
   return {};
 }
 
-void GoalRefinement::start_with(DomainMesh domain) {
+void GoalRefinement::start_with(refine::DomainMesh domain) {
   take(std::move(domain));
   note_sides();
 }
@@ -62,14 +62,14 @@ void GoalRefinement::release() {
   piece_.reset();
 }
 
-void GoalRefinement::take(DomainMesh domain) {
+void GoalRefinement::take(refine::DomainMesh domain) {
   is_whole_ = domain.whole;
   unused_ = domain.unused;
-  piece_.emplace(Piece{raster_, 0, std::move(domain.tin)});
+  piece_.emplace(pieces::Piece{raster_, 0, std::move(domain.tin)});
 }
 
 void GoalRefinement::note_sides() {
-  if (!border_.empty()) on_sides_ = find_side_vertices(piece_->tin, raster_, 1);
+  if (!border_.empty()) on_sides_ = pieces::find_side_vertices(piece_->tin, raster_, 1);
 }
 
 void GoalRefinement::insert_points() {
@@ -80,10 +80,11 @@ void GoalRefinement::insert_points() {
 }
 
 void GoalRefinement::insert_seed(Point p) {
-  const Triangulation& tin = piece_->tin;
+  const tin::Triangulation& tin = piece_->tin;
   const auto location = tin.locate(p, tin.last_touched());
-  const HalfEdge twin = location.kind == Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : kNone;
-  const bool inside = !tin.is_outside(location.edge / 3) || (twin != kNone && !tin.is_outside(twin / 3));
+  const tin::HalfEdge twin =
+      location.kind == tin::Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : tin::kNone;
+  const bool inside = !tin.is_outside(location.edge / 3) || (twin != tin::kNone && !tin.is_outside(twin / 3));
   if (inside && raster_.is_valid(p)) piece_->tin.insert(p, location);
 }
 
@@ -91,7 +92,7 @@ Result<void> GoalRefinement::check_border() const {
   if (border_.empty()) return {};
   std::vector<Point> expected = on_sides_;
   for (Point& p : expected) p = {p.x * piece_->lattice.steps, p.y * piece_->lattice.steps};
-  if (find_side_vertices(piece_->tin, raster_, piece_->lattice.steps) == expected) return {};
+  if (pieces::find_side_vertices(piece_->tin, raster_, piece_->lattice.steps) == expected) return {};
   return fail(ErrorKind::kPromise,
               "the locked border cannot be kept: heights differ too much in magnitude for its line");
 }
@@ -109,7 +110,7 @@ Result<void> GoalRefinement::refine(StopReason& stop) {
       stop = *reason;
       return {};
     }
-    if (refinement_->is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
+    if (refinement_->is_full()) return fail(ErrorKind::kInput, pieces::kTooManyTriangles);
     if ((step < 1024 || step % 256 == 0 || options_.strategy.batch.rule != Batch::Rule::kSequential) &&
         reporter_.due() && !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
@@ -174,13 +175,14 @@ bool GoalRefinement::in_last_stretch() const {
 void GoalRefinement::take_best_prefix() {
   if (refinement_->done() || std::isinf(best_.error) || best_.vertices == piece_->tin.vertex_count()) return;
   std::vector<Point> points;
-  for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(piece_->tin.point(static_cast<Vertex>(v)));
+  for (std::size_t v = seeds_; v < best_.vertices; ++v)
+    points.push_back(piece_->tin.point(static_cast<tin::Vertex>(v)));
   refinement_.reset();
-  take(*build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
+  take(*refine::build_domain(raster_, options_.domain.outline_tolerance, recipe_.field.frame));
   insert_points();
-  std::optional<DataDependentRule> rule;
+  std::optional<refine::DataDependentRule> rule;
   if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.metric(), options_.strategy.edges);
-  Triangulation& tin = piece_->tin;
+  tin::Triangulation& tin = piece_->tin;
   for (Point p : points) {
     const auto location = tin.locate(p, tin.last_touched());
     rule ? rule->insert(tin, p, location) : tin.insert(p, location);
@@ -190,8 +192,8 @@ void GoalRefinement::take_best_prefix() {
 void GoalRefinement::finish_edges(Simplified& result) {
   result.work = refinement_->work();
   take_best_prefix();
-  const Work settling = settle_edges(piece_->tin, criterion_.metric(), options_.strategy.edges,
-                                     result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
+  const Work settling = refine::settle_edges(piece_->tin, criterion_.metric(), options_.strategy.edges,
+                                             result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
   result.work.samples_scanned += settling.samples_scanned;
   result.work.triangles_scanned += settling.triangles_scanned;
 }
@@ -199,7 +201,7 @@ void GoalRefinement::finish_edges(Simplified& result) {
 Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& result) {
   if (!refinement_)
     refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
-                        Refinement::Start::kClean);
+                        refine::Refinement::Start::kClean);
   // If a vertex is among them, its rounding breaks the bound, and no other vertex can mend that.
   const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
   // To remove a fold, any sample may be named.
@@ -230,4 +232,4 @@ Result<bool> GoalRefinement::mend(std::vector<Offender> offenders, Simplified& r
   return true;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -19,20 +19,20 @@
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Owns the piece, which covers the raster, and during insertion the errors of its samples.
 class GoalRefinement {
  public:
   /// `border`: the vertices of a locked border (locked_border.h); EMPTY: none. All arguments must outlive this object.
-  GoalRefinement(const Recipe& recipe, const Raster& raster, const Criterion& criterion, std::span<const Point> border,
-                 Reporter& reporter);
+  GoalRefinement(const pieces::Recipe& recipe, const grid::Raster& raster, const metric::Criterion& criterion,
+                 std::span<const Point> border, Reporter& reporter);
 
   /// Makes the piece from the domain and its seeds: the border and the points of the features. Fails like
   /// build_domain().
   Result<void> start(Simplified& result);
   /// Makes the piece from an existing mesh of the domain.
-  void start_with(DomainMesh domain);
+  void start_with(refine::DomainMesh domain);
   /// Inserts samples from the seeds on, by the strategy. Fails if even the seeds exceed a budget, if there are too many
   /// triangles (kInput) or too little memory, and if cancelled (kCancelled).
   Result<void> run(Simplified& result);
@@ -47,8 +47,8 @@ class GoalRefinement {
   /// Also releases the piece.
   void release();
   bool has_piece() const { return piece_.has_value(); }
-  Piece& piece() { return *piece_; }
-  const Piece& piece() const { return *piece_; }
+  pieces::Piece& piece() { return *piece_; }
+  const pieces::Piece& piece() const { return *piece_; }
 
   /// True if every sample of the rectangle is a height.
   bool is_whole() const { return is_whole_; }
@@ -59,12 +59,12 @@ class GoalRefinement {
   Result<void> check_border() const;
 
  private:
-  void take(DomainMesh domain);
+  void take(refine::DomainMesh domain);
   void note_sides();
   /// Inserts the points of the features, except those outside the domain.
   void insert_points();
   void insert_seed(Point p);
-  MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
+  pieces::MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
   std::optional<StopReason> reached() const;
   /// Refines in steps of one or more insertions, with a check of goals, progress and the best prefix after each.
@@ -81,22 +81,22 @@ class GoalRefinement {
   void take_best_prefix();
   void finish_edges(Simplified& result);
 
-  const Recipe& recipe_;
-  const Raster& raster_;
-  const Request& options_;
-  const Criterion& criterion_;
+  const pieces::Recipe& recipe_;
+  const grid::Raster& raster_;
+  const metric::Request& options_;
+  const metric::Criterion& criterion_;
   std::span<const Point> border_;
   Reporter& reporter_;
-  Budget budget_;
+  pieces::Budget budget_;
   std::vector<Point> on_sides_;  // vertices of a locked border when refinement begins
-  std::optional<Piece> piece_;
+  std::optional<pieces::Piece> piece_;
   bool is_whole_ = true;
   std::uint32_t unused_ = 0;
   std::size_t seeds_ = 0;
-  std::optional<Refinement> refinement_;
+  std::optional<refine::Refinement> refinement_;
   std::optional<std::vector<Point>> ranking_;
   std::size_t ranked_ = 0;
-  Prefix best_{0, std::numeric_limits<double>::infinity()};
+  pieces::Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -18,8 +18,9 @@ Result<void> check(const HeightField& field, const SimplifyOptions& options, con
     return usage(fmt::format("the number of levels must lie in 1 … {}, not {}", kMostLevels, levels.count));
   if (!(levels.ratio > 1 && std::isfinite(levels.ratio)))
     return usage(fmt::format("the ratio of levels must be a finite number above 1, not {}", levels.ratio));
-  const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kLevels));
-  if (!conflicts.empty()) return usage(describe(conflicts.front()));
+  const auto conflicts =
+      pieces::find_conflicts(pieces::fields_of(field, options) | pieces::Fields(pieces::Field::kLevels));
+  if (!conflicts.empty()) return usage(pieces::describe(conflicts.front()));
   if (!options.goals.max_error) return usage("levels need a max error, that of the finest");
   return {};
 }

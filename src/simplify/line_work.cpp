@@ -11,19 +11,20 @@
 #include "pieces/strips.h"
 #include "pieces/tiled.h"
 
-namespace scarp {
+namespace scarp::run {
 
 bool LineWork::may_wait() const {
   const HeightField& field = recipe_.field;
   const Features& features = recipe_.options.features;
   const LineConstraints& given = features.breaklines;
   if (thread_count(recipe_.options.run.threads) == 1) return false;
-  const bool is_too_large = std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps;
+  const bool is_too_large = std::max(field.cols, field.rows) > kMaxCoordinate / grid::kLatticeSteps;
   if (recipe_.is_streamed || is_too_large || !features.cutline.rings.empty()) return false;
   return std::all_of(given.lines.begin(), given.lines.end(), [&](const Line& line) {
     const bool is_soft =
         std::all_of(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p[2]); });
-    return is_soft && !is_inserted_first(line) && check_line_positions(line.name, line.points, given.affine);
+    return is_soft && !lines::is_inserted_first(line) &&
+           grid::check_line_positions(line.name, line.points, given.affine);
   });
 }
 
@@ -32,12 +33,12 @@ Result<void> LineWork::prepare() {
   const auto start = Clock::now();
   std::vector<std::int32_t> rows;
   const Features& features = recipe_.options.features;
-  if (recipe_.is_streamed) rows = shared_rows(recipe_.field, strip_side(recipe_));
-  SCARP_TRY(lines_, prepare_lines(recipe_.field, features.breaklines, features.cutline, tolerance_,
-                                  recipe_.options.run.threads, rows));
+  if (recipe_.is_streamed) rows = pieces::shared_rows(recipe_.field, pieces::strip_side(recipe_));
+  SCARP_TRY(lines_, lines::prepare_lines(recipe_.field, features.breaklines, features.cutline, tolerance_,
+                                         recipe_.options.run.threads, rows));
   is_prepared_ = true;
   seconds_ = seconds_since(start);
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

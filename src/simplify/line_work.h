@@ -6,12 +6,12 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::run {
 
 class LineWork {
  public:
   /// Uses lines and cutline of the recipe, which must stay alive; `tolerance` as for prepare_lines().
-  LineWork(const Recipe& recipe, double tolerance) : recipe_(recipe), tolerance_(tolerance) {}
+  LineWork(const pieces::Recipe& recipe, double tolerance) : recipe_(recipe), tolerance_(tolerance) {}
 
   /// True if the refinement of tiles need not wait for the lines: they change no sample and cut nothing, all are within
   /// reach of the lattice, and there is a second thread.
@@ -23,16 +23,16 @@ class LineWork {
   /// REQUIRES: is_prepared(), or may_wait() of the field.
   HeightField field() const { return lines_.apply(recipe_.field); }
   /// REQUIRES: is_prepared().
-  const ConstraintGraph& graph() const { return lines_.graph; }
-  FieldLines& lines() { return lines_; }
+  const lines::ConstraintGraph& graph() const { return lines_.graph; }
+  lines::FieldLines& lines() { return lines_; }
   double seconds() const { return seconds_; }
 
  private:
-  const Recipe& recipe_;
+  const pieces::Recipe& recipe_;
   double tolerance_;
-  FieldLines lines_;
+  lines::FieldLines lines_;
   double seconds_ = 0;
   bool is_prepared_ = false;
 };
 
-}  // namespace scarp
+}  // namespace scarp::run

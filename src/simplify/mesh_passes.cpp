@@ -27,18 +27,19 @@
 #include "simplify/proof.h"
 #include "tin/border_count.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
-static_assert(kMostFitFields > kMaxChannels);
+static_assert(fit::kMostFitFields > kMaxChannels);
 
 /// The norm that fitting bounds; nothing if only unweighted heights matter. The criterion must stay alive.
-std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
-  const std::vector<MetricField> fields = criterion.metric_fields();
+std::optional<fit::FitNorm> fit_norm(const SimplifyOptions& options, const grid::Raster& raster,
+                                     const metric::Criterion& criterion) {
+  const std::vector<metric::MetricField> fields = criterion.metric_fields();
   if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
-  FitNorm norm;
-  for (const MetricField& field : fields) norm.fields.push_back({field.samples, field.scale});
+  fit::FitNorm norm;
+  for (const metric::MetricField& field : fields) norm.fields.push_back({field.samples, field.scale});
   norm.norm = options.goals.norm;
   norm.find_breach = [&metric = criterion.metric()](const std::array<Point, 3>& corners) {
     const auto candidate = metric.find_candidate(corners, metric.fit(corners, {}));
@@ -50,8 +51,8 @@ std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& ra
 /// The passes over the whole mesh, towards the goals.
 class MeshPasses {
  public:
-  MeshPasses(const Recipe& recipe, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines,
-             std::span<const Point> border)
+  MeshPasses(const pieces::Recipe& recipe, const grid::Raster& raster, const metric::Criterion& criterion,
+             const lines::ConstraintGraph* lines, std::span<const Point> border)
       : recipe_(recipe),
         field_(recipe.field),
         raster_(raster),
@@ -63,7 +64,7 @@ class MeshPasses {
         refinement_(recipe, raster, criterion, border, reporter_) {}
 
   /// Runs from the tiles of the dominant order if `tiled` is given, else greedily.
-  Result<Simplified> execute(std::optional<Tiled> tiled) {
+  Result<Simplified> execute(std::optional<pieces::Tiled> tiled) {
     const auto start = Clock::now();
     Simplified result;
     result.ignored = criterion_.ignored();
@@ -74,9 +75,9 @@ class MeshPasses {
     SCARP_RETURN_IF_ERROR(fit_and_shape(result));
     SCARP_RETURN_IF_ERROR(refinement_.check_border());
     const ShapeGoals& shape = options_.quality.shape;
-    const auto losses =
-        shape.any() ? count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps, field_.frame, shape)
-                    : ShapeLosses{};
+    const auto losses = shape.any() ? shape::count_losses(refinement_.piece().tin, refinement_.piece().lattice.steps,
+                                                          field_.frame, shape)
+                                    : shape::ShapeLosses{};
     // If all vertices are exactly on their samples, the bound holds by construction, and no vertex is inserted after
     // the proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !refinement_.piece().lattice.are_samples();
@@ -90,7 +91,7 @@ class MeshPasses {
     }
     SCARP_RETURN_IF_ERROR(prove_and_mend(result));
     count_looser_outline(result);
-    if (shape.any()) result.shape = report_shapes(result.mesh, shape, losses);
+    if (shape.any()) result.shape = shape::report_shapes(result.mesh, shape, losses);
     return result;
   }
 
@@ -103,31 +104,31 @@ class MeshPasses {
 
   /// Joins the tiles' meshes. Refines samples with bounds below the largest and, in curved frames, samples whose bound
   /// breaks where the border is fitted to the samples.
-  Result<void> free_seams(Tiled tiled, Simplified& result) {
+  Result<void> free_seams(pieces::Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     refinement_.start_with(std::move(tiled.domain));
-    Piece& piece = refinement_.piece();
+    pieces::Piece& piece = refinement_.piece();
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
     if (recipe_.finishes_strips) {
       // Later passes over the whole mesh have no raster, so heights are stored per vertex.
-      if (options_.quality.shape.any() && tiled.steps == 1) piece.tin.scale(tiled.steps = kLatticeSteps);
+      if (options_.quality.shape.any() && tiled.steps == 1) piece.tin.scale(tiled.steps = grid::kLatticeSteps);
       piece.lattice = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
                        std::move(tiled.fixed)};
       note_vertices(result);
     } else if (recipe_.is_streamed && recipe_.scale.squares) {
-      piece.tin.scale(kLatticeSteps);
-      piece.lattice = {kLatticeSteps, std::move(heights_), {}};
+      piece.tin.scale(grid::kLatticeSteps);
+      piece.lattice = {grid::kLatticeSteps, std::move(heights_), {}};
     } else if (!recipe_.is_streamed || field_.source->is_in_memory()) {
-      const HeightMetric of_tiles(raster_, criterion_.largest_aim());
-      const ErrorMetric& metric = criterion_.bounds().empty() ? criterion_.metric() : of_tiles;
-      const Work work = release_seams(piece.tin, metric, std::move(tiled.seams), options_.run.threads);
+      const metric::HeightMetric of_tiles(raster_, criterion_.largest_aim());
+      const metric::ErrorMetric& metric = criterion_.bounds().empty() ? criterion_.metric() : of_tiles;
+      const Work work = pieces::release_seams(piece.tin, metric, std::move(tiled.seams), options_.run.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
       result.passes.push_back(pass_of("seams", seconds_since(start), work));
     }
     if (!field_.frame.transform && criterion_.bounds().empty()) return {};
-    if (field_.frame.transform) follow_curved_border(raster_, piece.tin, field_.frame);
+    if (field_.frame.transform) refine::follow_curved_border(raster_, piece.tin, field_.frame);
     return refinement_.run_on(result);
   }
 
@@ -136,27 +137,29 @@ class MeshPasses {
 
   /// Fixes points, so that removal keeps them.
   void fix_points() {
-    Piece& piece = refinement_.piece();
+    pieces::Piece& piece = refinement_.piece();
     std::vector<Point> asked;
     for (const auto& [col, row] : options_.features.points)
       asked.push_back({col * piece.lattice.steps, row * piece.lattice.steps});
     if (asked.empty()) return;
     sort_rarely(asked, before);
     piece.lattice.fixed.resize(piece.tin.vertex_count(), 0);
-    for (Vertex v = 0; v < piece.tin.vertex_count(); ++v) {
+    for (tin::Vertex v = 0; v < piece.tin.vertex_count(); ++v) {
       if (std::binary_search(asked.begin(), asked.end(), piece.tin.point(v), before)) piece.lattice.fixed[v] = 1;
     }
   }
 
   /// See Scale::room.
-  bool is_useless(const MeshSize& size) const { return recipe_.scale.room && recipe_.scale.room->used(size) > 1; }
+  bool is_useless(const pieces::MeshSize& size) const {
+    return recipe_.scale.room && recipe_.scale.room->used(size) > 1;
+  }
 
   /// Makes the lines chains of edges, and refines around them where they break the bound.
   Result<void> insert_lines(Simplified& result) {
     if (lines_ == nullptr) return {};
     const auto start = Clock::now();
     refinement_.forget();
-    Piece& piece = refinement_.piece();
+    pieces::Piece& piece = refinement_.piece();
     piece.aims = criterion_.aims();
     piece.is_refined = !inserts_first();
     piece.check = [this](std::uint64_t count, double share, double error) -> Result<void> {
@@ -165,9 +168,10 @@ class MeshPasses {
       return recipe_.memory.check_mesh(0, count - refinement_.unused(), share);
     };
     Work work;
-    const ConstraintGoals goals{criterion_.aim(), recipe_.fits && recipe_.releases_starts, options_.run.threads};
-    SCARP_RETURN_IF_ERROR(insert_constraints(piece, *lines_, goals, work));
-    if (!piece.has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
+    const pieces::ConstraintGoals goals{criterion_.aim(), recipe_.fits && recipe_.releases_starts,
+                                        options_.run.threads};
+    SCARP_RETURN_IF_ERROR(pieces::insert_constraints(piece, *lines_, goals, work));
+    if (!piece.has_surface) return fail(ErrorKind::kInput, lines::kNothingInCutline);
     if (inserts_first()) result.work = work;
     result.passes.push_back(pass_of("lines", seconds_since(start), work));
     return {};
@@ -188,23 +192,23 @@ class MeshPasses {
     const auto start = Clock::now();
     refinement_.forget();
     fix_points();
-    std::optional<Criterion> whole;
+    std::optional<metric::Criterion> whole;
     if (recipe_.scale.start < 1) {
-      SCARP_TRY(auto&& made, Criterion::make(field_, options_, raster_, recipe_.aim, recipe_.scale.factor));
+      SCARP_TRY(auto&& made, metric::Criterion::make(field_, options_, raster_, recipe_.aim, recipe_.scale.factor));
       whole.emplace(std::move(made));
     }
-    const Criterion& criterion = whole ? *whole : criterion_;
-    FitOptions options = recipe_.fit;
+    const metric::Criterion& criterion = whole ? *whole : criterion_;
+    fit::FitOptions options = recipe_.fit;
     options.threshold = criterion.aim();
     options.squares = recipe_.scale.squares;
-    if (options.squares && options.squares->most_vertices != kNoBudget)
+    if (options.squares && options.squares->most_vertices != fit::kNoBudget)
       options.squares->most_vertices += refinement_.unused();
     refinement_.piece().aims = criterion.aims();
     const auto norm = fit_norm(options_, raster_, criterion);
     if (norm) options.norm = &*norm;
-    if (recipe_.is_streamed) read_windows(field_, recipe_.memory, options, criterion_.source_bounds());
-    options.threads = fit_threads(window_bytes(options));
-    const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
+    if (recipe_.is_streamed) pieces::read_windows(field_, recipe_.memory, options, criterion_.source_bounds());
+    options.threads = fit_threads(pieces::window_bytes(options));
+    const std::uint64_t windows = pieces::window_bytes(options) * static_cast<unsigned>(options.threads);
     SCARP_RETURN_IF_ERROR(recipe_.memory.check_mesh(windows, refinement_.vertices(), 1));
     Reporter reporter(options_.run.progress);
     if (options_.run.progress) {
@@ -212,7 +216,7 @@ class MeshPasses {
         return !reporter.due() || reporter.report("fit", share, vertices, 0);
       };
     }
-    SCARP_TRY(const auto& fitted, fit_piece(refinement_.piece(), std::move(options)));
+    SCARP_TRY(const auto& fitted, pieces::fit_piece(refinement_.piece(), std::move(options)));
     note_vertices(result);
     result.is_cut_short = fitted.is_cut_short;
     result.passes.push_back(pass_of("fit", seconds_since(start)));
@@ -225,14 +229,14 @@ class MeshPasses {
     if (!options_.quality.shape.any()) return {};
     const auto start = Clock::now();
     refinement_.forget();
-    ShapeTask task{options_.quality.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
+    shape::ShapeTask task{options_.quality.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
     task.all_may_go = recipe_.releases_starts;
     std::uint64_t rows = 0;
     if (recipe_.is_streamed) {
       task.field = &field_;
       task.source_bounds = criterion_.source_bounds();
-      task.rows_at_once = rows_at_once(field_, recipe_.memory, task.source_bounds);
-      rows = bytes_at_once(field_, recipe_.memory, task.source_bounds);
+      task.rows_at_once = pieces::rows_at_once(field_, recipe_.memory, task.source_bounds);
+      rows = pieces::bytes_at_once(field_, recipe_.memory, task.source_bounds);
     }
     const auto before = static_cast<double>(refinement_.piece().tin.vertex_count());
     task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {
@@ -241,8 +245,9 @@ class MeshPasses {
       const auto now = static_cast<double>(count);
       return recipe_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
     };
-    task.foresee = [&](double triangles) { return check_need(triangles, recipe_.memory, rows); };
-    SCARP_TRY(const auto& work, refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task));
+    task.foresee = [&](double triangles) { return shape::check_need(triangles, recipe_.memory, rows); };
+    SCARP_TRY(const auto& work,
+              shape::refine_shapes(raster_, refinement_.piece().tin, refinement_.piece().lattice, task));
     note_vertices(result);
     result.passes.push_back(
         {"shape", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.insertions});
@@ -261,7 +266,7 @@ class MeshPasses {
     if (!recipe_.memory.is_limited()) return threads;
     const std::uint64_t vertices = refinement_.piece().tin.vertex_count(), taken = recipe_.memory.per_vertex * vertices;
     const std::uint64_t most =
-        (std::max(recipe_.memory.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
+        (std::max(recipe_.memory.rest(), taken) - taken) / (fit::kFitBytesPerVertexAndThread * vertices + window);
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
@@ -283,17 +288,18 @@ class MeshPasses {
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
     if (!refinement_.is_whole() && !recipe_.has_lines)
-      result.outline_triangles = count_border_triangles(refinement_.piece().tin);
+      result.outline_triangles = tin::count_border_triangles(refinement_.piece().tin);
     const HeightField clean = clean_field();
-    const Raster given{clean.samples, raster_.cols, raster_.rows};
-    const SampleHeights heights = !recipe_.is_streamed ? SampleHeights(given) : SampleHeights(field_, heights_);
-    const VertexPositions way{heights, refinement_.piece().lattice, field_.frame, recipe_.rounds_offsets};
-    const bool has_more = has_attributes(field_, options_);
+    const grid::Raster given{clean.samples, raster_.cols, raster_.rows};
+    const pieces::SampleHeights heights =
+        !recipe_.is_streamed ? pieces::SampleHeights(given) : pieces::SampleHeights(field_, heights_);
+    const pieces::VertexPositions way{heights, refinement_.piece().lattice, field_.frame, recipe_.rounds_offsets};
+    const bool has_more = pieces::has_attributes(field_, options_);
     const int threads = options_.run.threads;
-    LatticePoints at;
+    pieces::LatticePoints at;
     double seconds_of_order = 0;
     if (is_last) {
-      MeltDown melting(std::move(refinement_.piece().tin), way, threads);
+      pieces::MeltDown melting(std::move(refinement_.piece().tin), way, threads);
       if (!is_useless({melting.vertex_count(), melting.triangle_count()})) {
         const auto order_start = Clock::now();
         melting.order();
@@ -303,15 +309,15 @@ class MeshPasses {
       if (has_more) at = melting.points();
       refinement_.release();
     } else {
-      result.mesh = freeze(refinement_.piece().tin, way, threads);
-      if (has_more) at = frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
+      result.mesh = pieces::freeze(refinement_.piece().tin, way, threads);
+      if (has_more) at = pieces::frozen_points(refinement_.piece().tin, refinement_.piece().lattice);
     }
-    if (recipe_.height_step > 0) round_heights(result.mesh, recipe_.height_step);
+    if (recipe_.height_step > 0) pieces::round_heights(result.mesh, recipe_.height_step);
     // Normals are those of the samples as read: `clean` has the samples of a locked border on its line, which
     // neighbours do not know.
     HeightField read = options_.domain.border.is_locked ? field_ : clean;
     read.channels = criterion_.channels();
-    add_attributes(read, options_, at, result.mesh);
+    pieces::add_attributes(read, options_, at, result.mesh);
     result.passes.push_back({"freeze", seconds_since(start) - seconds_of_order});
     if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }
@@ -320,8 +326,8 @@ class MeshPasses {
   void count_looser_outline(Simplified& result) const {
     if (options_.domain.outline_tolerance > 0 || recipe_.is_streamed || result.outline_triangles == 0) return;
     if (2 * result.outline_triangles < result.mesh.triangle_count()) return;
-    const auto domain = build_domain(raster_, 1, field_.frame);
-    if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
+    const auto domain = refine::build_domain(raster_, 1, field_.frame);
+    if (domain) result.outline_triangles_at_one = tin::count_border_triangles(domain->tin);
   }
 
   /// Searches for breaches before the mesh is sorted and its topology is judged, which needs longer. The proof handles
@@ -376,12 +382,12 @@ class MeshPasses {
     }
   }
 
-  const Recipe& recipe_;
+  const pieces::Recipe& recipe_;
   const HeightField& field_;
-  const Raster& raster_;
-  const Request& options_;
-  const Criterion& criterion_;
-  const ConstraintGraph* lines_;
+  const grid::Raster& raster_;
+  const metric::Request& options_;
+  const metric::Criterion& criterion_;
+  const lines::ConstraintGraph* lines_;
   std::vector<float> heights_;  // heights of the domain's vertices, if the field has a source
   bool exact_;                  // every vertex can lie exactly on its sample, or on the lattice of fitting
   Reporter reporter_;
@@ -390,9 +396,10 @@ class MeshPasses {
 
 }  // namespace
 
-Result<Simplified> run_passes(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
-                              const ConstraintGraph* lines, std::optional<Tiled> tiled, std::span<const Point> border) {
+Result<Simplified> run_passes(const pieces::Recipe& recipe, const grid::Raster& raster,
+                              const metric::Criterion& criterion, const lines::ConstraintGraph* lines,
+                              std::optional<pieces::Tiled> tiled, std::span<const Point> border) {
   return MeshPasses(recipe, raster, criterion, lines, border).execute(std::move(tiled));
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

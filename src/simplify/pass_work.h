@@ -7,7 +7,7 @@
 #include "metric/error_metric.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Bytes of a vertex and its two triangles in a finished mesh, in addition to the mesh of the run.
 inline constexpr std::uint64_t kMeshBytesPerVertex = 48;
@@ -27,4 +27,4 @@ inline void add_work(const Simplified& run, Pass& sum) {
   for (const Pass& pass : run.passes) add_work(pass, sum);
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -49,7 +49,7 @@ class BoundaryMaker {
       : rings_(rings), edges_(places_of(rings)), points_(points), tolerance_(tolerance), duplicates_(duplicates) {}
 
   Result<BoundaryCut> run() {
-    SCARP_TRY(const auto& surface, PointSurface::make(points_, duplicates_));
+    SCARP_TRY(const auto& surface, refine::PointSurface::make(points_, duplicates_));
     spacing_ = surface.spacing() / 2;
     find_on_boundary();
     cut_lines();
@@ -150,12 +150,12 @@ class BoundaryMaker {
   std::uint64_t drop_outside() {
     const std::size_t given = points_.size();
     const auto names =
-        keep_points(points_, [&](std::size_t i) { return own_[i] || edges_.holds(points_.x[i], points_.y[i]); });
+        grid::keep_points(points_, [&](std::size_t i) { return own_[i] || edges_.holds(points_.x[i], points_.y[i]); });
     for (Meeting& meeting : meetings_) meeting.point = names[meeting.point];
     return given - points_.size();
   }
 
-  void add_rings(const PointSurface& surface, BoundaryCut& cut) {
+  void add_rings(const refine::PointSurface& surface, BoundaryCut& cut) {
     std::sort(meetings_.begin(), meetings_.end(), [](const Meeting& p, const Meeting& q) {
       return p.edge != q.edge ? p.edge < q.edge : p.along_edge < q.along_edge;
     });
@@ -209,7 +209,8 @@ class BoundaryMaker {
   }
 
   /// Adds the corners between the last one and `to` that the surface along the edge needs.
-  void follow(const PointSurface& surface, const std::array<double, 3>& to, std::vector<std::uint32_t>& corners) {
+  void follow(const refine::PointSurface& surface, const std::array<double, 3>& to,
+              std::vector<std::uint32_t>& corners) {
     constexpr double kMostPlaces = 4096;
     const std::uint32_t last = corners.back();
     const std::array<double, 3> from{points_.x[last], points_.y[last], points_.z[last]};
@@ -260,16 +261,16 @@ Result<std::uint64_t> add_lines(std::span<const Line> lines, PointSet& points, D
   const bool any_soft = std::any_of(lines.begin(), lines.end(), [](const Line& line) {
     return std::any_of(line.points.begin(), line.points.end(), [](const auto& point) { return std::isnan(point[2]); });
   });
-  std::optional<PointSurface> surface;
+  std::optional<refine::PointSurface> surface;
   if (any_soft) {
-    SCARP_TRY(auto&& made, PointSurface::make(points, duplicates));
+    SCARP_TRY(auto&& made, refine::PointSurface::make(points, duplicates));
     surface.emplace(std::move(made));
   }
   std::uint64_t beyond = 0;
   for (const Line& line : lines) {
     PointLine chain{{}, line.name, true};
     for (const auto& [x, y, z] : line.points) {
-      const auto height = std::isnan(z) ? surface->at(x, y) : PointSurface::Height{z, 0};
+      const auto height = std::isnan(z) ? surface->at(x, y) : refine::PointSurface::Height{z, 0};
       if (height.distance > 0) ++beyond;
       chain.points.push_back(add_point(points, x, y, height.z));
     }
@@ -290,7 +291,7 @@ std::uint64_t keep_side(std::span<const Line> rings, bool is_inside, PointSet& p
   const RingBands edges(places_of(rings));
   const std::size_t given = points.size();
   points.lines.clear();
-  keep_points(points, [&](std::size_t i) { return edges.holds(points.x[i], points.y[i]) == is_inside; });
+  grid::keep_points(points, [&](std::size_t i) { return edges.holds(points.x[i], points.y[i]) == is_inside; });
   return given - points.size();
 }
 

@@ -10,7 +10,7 @@
 #include "scarp/result.h"
 #include "simplify/point_recipe.h"
 
-namespace scarp {
+namespace scarp::run {
 
 struct PointFit {
   std::uint64_t removed = 0;
@@ -20,7 +20,8 @@ struct PointFit {
 /// Removes vertices, moves others if the effort does so, and updates the domain. `fixed`: sorted points whose vertices
 /// stay. `heights`: heights of points as vertices. Fails with kCancelled. REQUIRES: every point satisfies
 /// recipe.aims.refinement. Triangles wider than kMaxFitSteps of the lattice do not change.
-Result<PointFit> fit_points(const SnappedPoints& points, std::span<const double> heights,
-                            std::span<const std::uint32_t> fixed, const PointRecipe& recipe, ScatteredDomain& domain);
+Result<PointFit> fit_points(const grid::SnappedPoints& points, std::span<const double> heights,
+                            std::span<const std::uint32_t> fixed, const PointRecipe& recipe,
+                            refine::ScatteredDomain& domain);
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -63,7 +63,7 @@ std::vector<Polygon> polygons_of(std::span<const Line> rings) {
 }
 
 /// The heights at the vertices of a shore and some places between them; empty if all are outside the points.
-std::vector<double> heights_along(const Polygon& polygon, const PointSurface& surface, double spacing,
+std::vector<double> heights_along(const Polygon& polygon, const refine::PointSurface& surface, double spacing,
                                   std::uint64_t& beyond) {
   constexpr double kMostPlaces = 4096;
   std::vector<double> heights;
@@ -108,7 +108,7 @@ std::vector<std::size_t> groups_of(const std::vector<Polygon>& polygons) {
 }
 
 /// Sets the levels, one for all lakes that meet; NaN if no shore is within the points.
-void find_levels(const std::vector<Polygon>& polygons, const PointSurface& surface, double percentile,
+void find_levels(const std::vector<Polygon>& polygons, const refine::PointSurface& surface, double percentile,
                  std::vector<PointLake>& lakes) {
   const double spacing = surface.spacing();
   const std::vector<std::size_t> groups = groups_of(polygons);
@@ -150,7 +150,7 @@ std::vector<std::array<double, 3>> sum_normals(const Mesh& mesh) {
 
 Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double percentile, PointSet& points,
                                            DuplicatePolicy duplicates) {
-  SCARP_TRY(const auto& surface, PointSurface::make(points, duplicates));
+  SCARP_TRY(const auto& surface, refine::PointSurface::make(points, duplicates));
   const std::vector<Polygon> polygons = polygons_of(rings);
   std::vector<const PointLine*> line_of(points.size());
   for (const PointLine& line : points.lines) {
@@ -184,7 +184,7 @@ Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double p
       for (auto& place : shores.back().points) place[2] = lake.level;
     }
   }
-  keep_points(points, [&](std::size_t i) { return stays[i]; });
+  grid::keep_points(points, [&](std::size_t i) { return stays[i]; });
   SCARP_RETURN_IF_ERROR(add_lines(shores, points));
   return lakes;
 }
@@ -192,7 +192,7 @@ Result<std::vector<PointLake>> level_lakes(std::span<const Line> rings, double p
 Result<std::vector<float>> point_normals(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates) {
   std::vector<std::array<double, 3>> sums = sum_normals(mesh);
   if (points.lines.empty()) {
-    SCARP_TRY(const auto& surface, PointSurface::make(points, duplicates));
+    SCARP_TRY(const auto& surface, refine::PointSurface::make(points, duplicates));
     const double reach = surface.spacing();
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const auto p = mesh.vertex(v);

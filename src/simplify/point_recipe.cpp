@@ -9,7 +9,7 @@
 #include "fit/triangle_error.h"
 #include "pieces/checks.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -28,9 +28,9 @@ Result<void> check_goals(const PointOptions& options) {
   const Quality& quality = options.quality;
   if (quality.order == Order::kDominant)
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
-  if (quality.vertices == Vertices::kFree && !traits_of(quality.effort).moves_vertices)
+  if (quality.vertices == Vertices::kFree && !pieces::traits_of(quality.effort).moves_vertices)
     return fail(ErrorKind::kUsage, "free vertices need high or max effort");
-  return check_max_error(options.max_error);
+  return pieces::check_max_error(options.max_error);
 }
 
 Result<void> check_lines(const PointSet& points, const PointOptions& options) {
@@ -61,13 +61,13 @@ double largest_of(std::span<const double> heights) {
 
 /// There is no search for a small squared error with shape goals, nor with tolerances: a point with a tolerance is two
 /// samples for fitting (point_fit.cpp), whose squares are not those of its error.
-Search choose_search(const PointRecipe& recipe) {
+pieces::Search choose_search(const PointRecipe& recipe) {
   const PointOptions& options = recipe.options;
   const bool has_budget = options.max_triangles || options.max_vertices;
-  if (!has_budget || (!recipe.removes && recipe.insertion_stops)) return Search::kNone;
+  if (!has_budget || (!recipe.removes && recipe.insertion_stops)) return pieces::Search::kNone;
   const bool lowers_squares = options.objective == Objective::kRms && recipe.removes && !options.quality.shape.any() &&
                               options.tolerances.empty();
-  return lowers_squares ? Search::kSquares : Search::kError;
+  return lowers_squares ? pieces::Search::kSquares : pieces::Search::kError;
 }
 
 constexpr double kPositionShare = 0x1p-9;  ///< share of the bound for the rounding of positions
@@ -78,7 +78,7 @@ PointAims::PointAims(double max_error, double largest) {
   // A point and the surface are each rounded by half a unit in the last place.
   const double rounding = largest * 0x1p-24 * (1 + 0x1p-10);
   fit = max_error * (1 - kPositionShare) - rounding;
-  refinement = largest < double{kMaxScanHeight} ? fit - 2 * rounding : 0;
+  refinement = largest < double{geom::kMaxScanHeight} ? fit - 2 * rounding : 0;
 }
 
 Result<void> check_point_options(const PointSet& points, const PointOptions& options) {
@@ -87,14 +87,14 @@ Result<void> check_point_options(const PointSet& points, const PointOptions& opt
   return check_lines(points, options);
 }
 
-PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, const Scale& wanted)
+PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, const pieces::Scale& wanted)
     : options(asked),
       scale(wanted),
       largest(largest_of(points.z)),
       effort(wanted.refines_only                     ? Effort::kFast
              : asked.quality.effort == Effort::kAuto ? Effort::kNormal
                                                      : asked.quality.effort),
-      traits(traits_of(effort)),
+      traits(pieces::traits_of(effort)),
       aims(asked.max_error.value_or(0), largest),
       removes(traits.fits && (!asked.max_error || aims.is_open())),
       insertion_stops(points.lines.empty() && !asked.quality.shape.any() && asked.tolerances.empty()),
@@ -102,8 +102,8 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, cons
       frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
       removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),
       steps(asked.float32_positions && (removes || asked.quality.shape.any() || !points.lines.empty())
-                ? PointSteps::kFloat32
-            : removes || asked.quality.shape.any() ? PointSteps::kFit
-                                                   : PointSteps::kFinest) {}
+                ? grid::PointSteps::kFloat32
+            : removes || asked.quality.shape.any() ? grid::PointSteps::kFit
+                                                   : grid::PointSteps::kFinest) {}
 
-}  // namespace scarp
+}  // namespace scarp::run

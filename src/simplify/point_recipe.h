@@ -9,7 +9,7 @@
 #include "scarp/points.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Fails with kUsage if there is no goal, a number is out of range, or options exclude each other.
 Result<void> check_point_options(const PointSet& points, const PointOptions& options);
@@ -26,7 +26,7 @@ struct PointAims {
 
 /// REQUIRES: checked options.
 struct PointRecipe {
-  PointRecipe(const PointSet& points, const PointOptions& asked, const Scale& scale = {});
+  PointRecipe(const PointSet& points, const PointOptions& asked, const pieces::Scale& scale = {});
 
   /// The bound of a point of the set; REQUIRES: tolerances and a max error.
   double bound_of(std::uint32_t source) const {
@@ -34,17 +34,17 @@ struct PointRecipe {
   }
 
   PointOptions options;
-  Scale scale;
-  double largest;        ///< the largest magnitude of a height
-  Effort effort;         ///< never kAuto
-  EffortTraits traits;   ///< the work of that effort
-  PointAims aims;        ///< without a max error, those for 0
-  bool removes;          ///< vertices are removed after refinement
-  bool insertion_stops;  ///< insertion can stop at budgets (BudgetTask)
-  Search search;         ///< for the mesh of a budget
-  bool frees_vertices;   ///< vertices may move off the points
-  bool removes_last;     ///< vertices are removed after those for angles and edges, whose goals removal preserves
-  PointSteps steps;      ///< lattice of the points
+  pieces::Scale scale;
+  double largest;               ///< the largest magnitude of a height
+  Effort effort;                ///< never kAuto
+  pieces::EffortTraits traits;  ///< the work of that effort
+  PointAims aims;               ///< without a max error, those for 0
+  bool removes;                 ///< vertices are removed after refinement
+  bool insertion_stops;         ///< insertion can stop at budgets (BudgetTask)
+  pieces::Search search;        ///< for the mesh of a budget
+  bool frees_vertices;          ///< vertices may move off the points
+  bool removes_last;       ///< vertices are removed after those for angles and edges, whose goals removal preserves
+  grid::PointSteps steps;  ///< lattice of the points
 };
 
-}  // namespace scarp
+}  // namespace scarp::run

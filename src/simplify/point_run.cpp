@@ -19,14 +19,14 @@
 #include "shape/shape_refinement.h"
 #include "simplify/point_fit.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
 /// One run of the engine towards the goals.
 class PointRun {
  public:
-  PointRun(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain)
+  PointRun(const PointTask& task, const PointRecipe& recipe, refine::ScatteredDomain domain)
       : points_(task.points),
         snapped_(task.snapped),
         heights_(task.heights),
@@ -39,7 +39,7 @@ class PointRun {
         width_(task.width),
         fits_(recipe.removes && recipe.aims.is_open()),
         // Vertices for shapes may be a step from an edge that rounding moves by half a step.
-        is_on_lattice_(task.steps == PointSteps::kFloat32 || (goals().any() && !snapped_.is_exact)),
+        is_on_lattice_(task.steps == grid::PointSteps::kFloat32 || (goals().any() && !snapped_.is_exact)),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
         reporter_(options_.run.progress) {
@@ -75,7 +75,7 @@ class PointRun {
   const PointFacts& facts() const { return facts_; }
 
  private:
-  MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
+  pieces::MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
 
   /// Starts towards the bound that fitting needs, or the bound itself.
@@ -117,7 +117,8 @@ class PointRun {
     if (!goals().any() || result.stop != StopReason::kMaxError) return {};
     forget_refinement();
     const std::vector<double>& bounds = threshold == bound_ ? bounds_ : aims_;
-    SCARP_TRY(const auto& work, refine_shapes(snapped_, heights_, domain_, goals(), threshold, bounds, reporter_));
+    SCARP_TRY(const auto& work,
+              shape::refine_shapes(snapped_, heights_, domain_, goals(), threshold, bounds, reporter_));
     scanned_ += work.samples_scanned;
     dealt_ += work.triangles_scanned;
     insertions_ += work.insertions;
@@ -130,7 +131,7 @@ class PointRun {
   std::vector<std::uint32_t> fixed_points() const {
     std::vector<std::uint32_t> fixed = mended_;
     for (const std::uint32_t point : domain_.point_of) {
-      if (point == kNone) continue;
+      if (point == tin::kNone) continue;
       const bool is_on_line = !lines_.empty() && lines_.on_lines()[point];
       if (is_on_line || (!bounds_.empty() && PointAims(bounds_[point], recipe_.largest).fit <= 0))
         fixed.push_back(point);
@@ -180,7 +181,7 @@ class PointRun {
   Result<void> settle_lines(StopReason& stop) {
     if (lines_.empty()) return {};
     for (;;) {
-      const auto splits = lines_.find_splits(find_vertices(domain_, snapped_.size()));
+      const auto splits = lines_.find_splits(refine::find_vertices(domain_, snapped_.size()));
       if (splits.empty()) {
         facts_.loose = lines_.hold(domain_);
         forget_refinement();
@@ -210,7 +211,7 @@ class PointRun {
     const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
                                               domain_.point_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
     refinement_.reset();
-    domain_ = *build_domain(snapped_, domain_.outlines);
+    domain_ = *refine::build_domain(snapped_, domain_.outlines);
     for (const std::uint32_t point : inserted) {
       const Point p = snapped_.at[point];
       domain_.insert(point, p, domain_.tin.locate(p, domain_.tin.last_touched()));
@@ -218,10 +219,10 @@ class PointRun {
   }
 
   void freeze_into(Simplified& result) const {
-    const Triangulation& tin = domain_.tin;
+    const tin::Triangulation& tin = domain_.tin;
     Mesh& mesh = result.mesh;
     mesh = {};
-    const PointLattice& lattice = snapped_.lattice;
+    const grid::PointLattice& lattice = snapped_.lattice;
     const Point centre{lattice.cols / 2, lattice.rows / 2};
     if (is_on_lattice_) {
       mesh.origin = {lattice.west + lattice.step * centre.x, lattice.north - lattice.step * centre.y, 0};
@@ -229,8 +230,8 @@ class PointRun {
       const auto [x, y] = local_origin(points_);
       mesh.origin = {x, y, 0};
     }
-    std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
-    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    std::vector<std::uint32_t> ids(tin.vertex_count(), tin::kNone);
+    for (tin::Vertex v = 0; v < tin.vertex_count(); ++v) {
       if (domain_.is_unused(v)) continue;
       ids[v] = static_cast<std::uint32_t>(mesh.vertex_count());
       const Point p = tin.point(v);
@@ -246,11 +247,11 @@ class PointRun {
       mesh.positions.push_back(domain_.height(v, heights_));
     }
     // The lattice's rows count southwards, so a positive triangle is clockwise seen from above.
-    for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
       if (tin.is_outside(t)) continue;
-      for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
+      for (const tin::HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
-    remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
+    mesh::remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh, options_.run.threads);
     result.work.samples_scanned = scanned_ + (refinement_ ? refinement_->points_scanned() : 0);
     result.work.triangles_scanned = dealt_ + (refinement_ ? refinement_->lists_dealt() : 0);
@@ -279,7 +280,7 @@ class PointRun {
   std::uint32_t point_of_source(std::int32_t source) {
     if (!snapped_.place.empty()) return snapped_.place[static_cast<std::size_t>(source)];
     if (points_by_source_.empty()) {
-      points_by_source_.resize(points_.size(), kNone);
+      points_by_source_.resize(points_.size(), tin::kNone);
       for (std::uint32_t point = 0; point < snapped_.size(); ++point) points_by_source_[snapped_.source[point]] = point;
     }
     return points_by_source_[static_cast<std::size_t>(source)];
@@ -354,7 +355,7 @@ class PointRun {
                            (m.max_error <= bound_ + allowance() && m.uncovered == 0 && m.over_tolerance == 0);
       if (m.is_sound() && is_kept) {
         result.passes.push_back({"prove", result.seconds_measure});
-        if (goals().any()) result.shape = report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
+        if (goals().any()) result.shape = shape::report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
         return {};
       }
       const auto again = Clock::now();
@@ -386,13 +387,13 @@ class PointRun {
     return {static_cast<std::size_t>(o.col), recipe_.bound_of(static_cast<std::uint32_t>(o.col)), std::abs(o.error)};
   }
   std::string describe_failure(const Measurement& m) const {
-    const PointLattice& lattice = snapped_.lattice;
+    const grid::PointLattice& lattice = snapped_.lattice;
     const bool is_thin = width_ <= 1e-5 * lattice.step * std::max(lattice.cols, lattice.rows);
     return (is_thin ? fmt::format("all points lie on one line, to {:.2g}, and ", width_) : "") +
            (m.is_sound() ? describe_broken(m) : "the mesh folds over itself");
   }
   std::string advice(const Measurement& m) const {
-    const std::string far = describe_far_points(points_);
+    const std::string far = grid::describe_far_points(points_);
     if (goals().any())
       return ": points nearly on one line leave no room for such triangles: omit the goals for angles and edges" +
              (far.empty() ? "" : "; " + far);
@@ -419,12 +420,12 @@ class PointRun {
   }
 
   const PointSet& points_;
-  const SnappedPoints& snapped_;
+  const grid::SnappedPoints& snapped_;
   std::span<const double> heights_;
   const PointRecipe& recipe_;
   const PointOptions& options_;
-  const PointLines& lines_;
-  Budget budget_;
+  const refine::PointLines& lines_;
+  pieces::Budget budget_;
   double bound_;
   std::string least_;
   double width_;
@@ -432,20 +433,20 @@ class PointRun {
   bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
   double largest_height_ = 0, thinnest_border_ = 0;
   std::vector<double> bounds_, aims_;  ///< by point, with tolerances: the bound, and that for fitting
-  ScatteredDomain domain_;
+  refine::ScatteredDomain domain_;
   std::size_t seeds_;
-  std::optional<ScatteredRefinement> refinement_;
+  std::optional<refine::ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> points_by_source_, mended_;
   std::optional<Offender> stuck_;  ///< a vertex that breaks its bound
   std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0;
   PointFacts facts_;
   Reporter reporter_;
-  Prefix best_{0, std::numeric_limits<double>::infinity()};
+  pieces::Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace
 
-Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain) {
+Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, refine::ScatteredDomain domain) {
   const auto start = Clock::now();
   PointRun run(task, recipe, std::move(domain));
   PointMesh made;
@@ -454,4 +455,4 @@ Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, S
   return made;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -15,15 +15,15 @@
 #include "scarp/result.h"
 #include "simplify/point_recipe.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Points ready for runs. All referenced objects must stay alive.
 struct PointTask {
   const PointSet& points;
-  const SnappedPoints& snapped;
+  const grid::SnappedPoints& snapped;
   std::span<const double> heights;  ///< heights of points as vertices: z, perhaps rounded to float32
-  const PointLines& lines;
-  PointSteps steps;
+  const refine::PointLines& lines;
+  grid::PointSteps steps;
   /// The subject of the error for a budget that the least mesh exceeds.
   std::string least(const PointOptions& options) const {
     const bool has_zeros =
@@ -48,6 +48,6 @@ struct PointMesh {
 
 /// Makes one mesh: towards the max error, or until insertion reaches a budget. Fails like simplify_points(). REQUIRES:
 /// the domain has the ends of lines as vertices.
-Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, ScatteredDomain domain);
+Result<PointMesh> run_points(const PointTask& task, const PointRecipe& recipe, refine::ScatteredDomain domain);
 
-}  // namespace scarp
+}  // namespace scarp::run

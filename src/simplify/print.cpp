@@ -161,14 +161,14 @@ Result<double> longest_side(const HeightField& field) {
 }
 
 /// Plans the print tiles; nothing for a whole print.
-Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print, const HeightField& field) {
-  if (!print.is_split()) return std::optional<PrintTilePlan>();
+Result<std::optional<mesh::PrintTilePlan>> plan_print_tiles(const PrintOptions& print, const HeightField& field) {
+  if (!print.is_split()) return std::optional<mesh::PrintTilePlan>();
   if (!field.frame.is_affine())
     return fail(
         ErrorKind::kUsage,
         "print tiles: they are cut along rows and columns of the raster, which the frame bends; choose a frame that "
         "is affine");
-  PrintTileOptions options;
+  mesh::PrintTileOptions options;
   options.columns = print.columns;
   options.rows = print.rows;
   options.dovetail = print.dovetail;
@@ -178,7 +178,7 @@ Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print,
     for (double& side : options.cell) side *= print.size ? *print.size / longest : 1;
     options.gap = print.gap;
   }
-  Result<PrintTilePlan> tiles = PrintTilePlan::make(field.cols, field.rows, options);
+  Result<mesh::PrintTilePlan> tiles = mesh::PrintTilePlan::make(field.cols, field.rows, options);
   if (!tiles) return fail(tiles.error().kind, "print tiles: " + tiles.error().message);
   return std::optional(std::move(*tiles));
 }
@@ -228,7 +228,7 @@ Result<Print> make_print(const PrintOptions& options, const PrintTask& task, con
 }
 
 /// Adds the cuts to the lines that simplify() inserts.
-void add_cuts(const PrintTilePlan& tiles, LineConstraints& breaklines) {
+void add_cuts(const mesh::PrintTilePlan& tiles, LineConstraints& breaklines) {
   for (Line& line : tiles.lines(breaklines.affine)) breaklines.lines.push_back(std::move(line));
 }
 
@@ -247,7 +247,8 @@ Result<PrintedTerrain> remake(const PrintOptions& print, const PrintTask& task, 
     SCARP_TRY(Print made, make_print(print, task, simplified.mesh));
     const std::optional<double> before = asked;
     tighten(made.placement.scale[2]);
-    const double excess = asked ? made.max_error + task.rounding - *asked - judging_allowance(*asked, made.heights) : 0;
+    const double excess =
+        asked ? made.max_error + task.rounding - *asked - judge::judging_allowance(*asked, made.heights) : 0;
     const bool has_budget_ended =
         simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
     if (!(excess > 0) || has_budget_ended) return PrintedTerrain{std::move(simplified), std::move(made)};
@@ -319,7 +320,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
   if (print.max_error) {
     SCARP_TRY(scale, estimate_print_scale(field, print));
   }
-  SCARP_TRY(const std::optional<PrintTilePlan>& tiles, plan_print_tiles(print, field));
+  SCARP_TRY(const std::optional<mesh::PrintTilePlan>& tiles, plan_print_tiles(print, field));
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
   if (tiles) add_cuts(*tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
@@ -334,7 +335,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
     return simplified;
   };
   task.cut = [&](const Mesh& terrain) {
-    return tiles ? cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
+    return tiles ? mesh::cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
   };
   task.judge = [&](const Mesh& tops) {
     MeasureOptions measuring;

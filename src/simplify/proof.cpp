@@ -13,7 +13,7 @@
 #include "grid/window.h"
 #include "measure/band.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -125,7 +125,7 @@ class SampleVerdict {
  public:
   /// `fields`: number of fields in the norms.
   /// `largest`: see largest_height().
-  SampleVerdict(const Criterion& criterion, bool exact, std::size_t fields, double largest, Simplified& result,
+  SampleVerdict(const metric::Criterion& criterion, bool exact, std::size_t fields, double largest, Simplified& result,
                 Proof& proof)
       : bound_(criterion.bound()),
         doubt_((exact ? 1 : -1) * 0x1p-24 * (3 + static_cast<double>(fields))),
@@ -186,7 +186,7 @@ class SampleVerdict {
   std::uint64_t count_ = 0, judged_ = 0;
 };
 
-void judge_samples(const SimplifyOptions& options, const Criterion& criterion, const HeightField& field,
+void judge_samples(const SimplifyOptions& options, const metric::Criterion& criterion, const HeightField& field,
                    const Tally& tally, SampleVerdict& verdict) {
   const auto cols = static_cast<std::size_t>(field.cols);
   for (std::size_t y = 0; y < static_cast<std::size_t>(field.rows); ++y) {
@@ -200,7 +200,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, c
 /// Judges each row by bounds that are read for some rows at a time.
 class WindowedVerdict {
  public:
-  WindowedVerdict(const HeightField& field, const SourceBounds& bounds, SampleVerdict verdict)
+  WindowedVerdict(const HeightField& field, const metric::SourceBounds& bounds, SampleVerdict verdict)
       : field_(field),
         bounds_(bounds),
         verdict_(std::move(verdict)),
@@ -258,7 +258,7 @@ class WindowedVerdict {
       ++covered;
     }
     if (is_in_doubt) {
-      status_ = read_window(field_, 0, row, field_.cols, 1, norms_.data(), field_.cols);
+      status_ = grid::read_window(field_, 0, row, field_.cols, 1, norms_.data(), field_.cols);
       covered = 0;
       for (std::size_t x = 0; x < norms_.size(); ++x) covered += std::isinf(promised_[x]) && !std::isnan(norms_[x]);
     }
@@ -266,7 +266,7 @@ class WindowedVerdict {
   }
 
   const HeightField& field_;
-  const SourceBounds& bounds_;
+  const metric::SourceBounds& bounds_;
   SampleVerdict verdict_;
   std::vector<float> held_, promised_, norms_;  // held_ has the rows [first_, end_)
   int first_ = 0, end_ = 0;
@@ -275,7 +275,7 @@ class WindowedVerdict {
 };
 
 /// Bytes of the band that a thread judges.
-std::uint64_t band_bytes(const Recipe& recipe) {
+std::uint64_t band_bytes(const pieces::Recipe& recipe) {
   constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
   const int cols = recipe.field.cols;
   return (kPerSample + (recipe.has_source_bounds ? kOfReports : 0)) * static_cast<std::uint64_t>(cols) *
@@ -283,7 +283,7 @@ std::uint64_t band_bytes(const Recipe& recipe) {
 }
 
 /// The number of threads whose bands fit in memory.
-int threads_within(const Recipe& recipe) {
+int threads_within(const pieces::Recipe& recipe) {
   return recipe.memory.threads_within(band_bytes(recipe), thread_count(recipe.options.run.threads));
 }
 
@@ -294,22 +294,23 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
 }
 
 /// The factor of the bounds; errors are judged as float32.
-double factor_of(const Simplified& result, const Criterion& criterion) {
+double factor_of(const Simplified& result, const metric::Criterion& criterion) {
   if (result.stop == StopReason::kMaxError) return criterion.factor();
   return std::max(1.0, result.judged_max_error * (1 + 0x1p-22));
 }
 
 }  // namespace
 
-std::uint64_t proof_bytes(const Recipe& recipe) {
+std::uint64_t proof_bytes(const pieces::Recipe& recipe) {
   const std::uint64_t held = recipe.has_source_bounds ? WindowedVerdict::most_held(recipe.field) : 0;
   return static_cast<std::uint64_t>(threads_within(recipe)) * band_bytes(recipe) + held * sizeof(float);
 }
 
-Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact, Look look, Simplified& result) {
+Result<Proof> prove(const pieces::Recipe& recipe, const metric::Criterion& criterion, bool exact, Look look,
+                    Simplified& result) {
   const HeightField& field = recipe.field;
   const SimplifyOptions& options = recipe.options;
-  const SourceBounds* windowed = criterion.source_bounds();
+  const metric::SourceBounds* windowed = criterion.source_bounds();
   const bool is_tallied = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
   const bool by_sample = is_tallied || windowed != nullptr;
   MeasureOptions judge;
@@ -353,8 +354,8 @@ Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact
       proof.broken = describe_breach(m, options);
   }
   proof.kept = proof.broken.empty();
-  if (has_tolerances(options)) result.tolerance_factor = factor_of(result, criterion);
+  if (metric::has_tolerances(options)) result.tolerance_factor = factor_of(result, criterion);
   return proof;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -10,7 +10,7 @@
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 struct Proof {
   bool kept = true;
@@ -24,9 +24,10 @@ enum class Look { kHeights, kAll };
 /// Fills the measurements of `result` from its mesh, and searches for breaches if the error goal ended the run.
 /// `exact`: vertices are exactly on their samples. Then a breach within the judge's own rounding does not count, and
 /// the topology, which is valid by construction, is omitted for any `look`. Fails like measure().
-Result<Proof> prove(const Recipe& recipe, const Criterion& criterion, bool exact, Look look, Simplified& result);
+Result<Proof> prove(const pieces::Recipe& recipe, const metric::Criterion& criterion, bool exact, Look look,
+                    Simplified& result);
 
 /// Memory of prove(), the same for all meshes.
-std::uint64_t proof_bytes(const Recipe& recipe);
+std::uint64_t proof_bytes(const pieces::Recipe& recipe);
 
-}  // namespace scarp
+}  // namespace scarp::run

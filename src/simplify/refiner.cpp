@@ -11,7 +11,7 @@
 namespace scarp {
 
 struct Refiner::Impl {
-  Impl(const HeightField& field_, Samples samples_, DomainMesh domain_)
+  Impl(const HeightField& field_, grid::Samples samples_, refine::DomainMesh domain_)
       : field(field_),
         samples(std::move(samples_)),
         raster(samples.raster()),
@@ -19,11 +19,11 @@ struct Refiner::Impl {
         metric(raster, 0),
         refinement(metric, domain.tin) {}
   HeightField field;
-  Samples samples;
-  Raster raster;
-  DomainMesh domain;
-  HeightMetric metric;
-  Refinement refinement;
+  grid::Samples samples;
+  grid::Raster raster;
+  refine::DomainMesh domain;
+  metric::HeightMetric metric;
+  refine::Refinement refinement;
 };
 
 Refiner::Refiner(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -34,8 +34,8 @@ Refiner::~Refiner() = default;
 Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
   if (field.samples == nullptr && field.source != nullptr)
     return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
-  SCARP_TRY(auto&& samples, Samples::to_refine(field, 1));
-  SCARP_TRY(auto&& domain, build_domain(samples.raster(), outline_tolerance, field.frame));
+  SCARP_TRY(auto&& samples, grid::Samples::to_refine(field, 1));
+  SCARP_TRY(auto&& domain, refine::build_domain(samples.raster(), outline_tolerance, field.frame));
   return Refiner(std::make_unique<Impl>(field, std::move(samples), std::move(domain)));
 } catch (...) {
   return caught(ErrorKind::kInput, "triangulate this raster");
@@ -52,8 +52,8 @@ std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_co
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
 Mesh Refiner::mesh(bool float32_positions) const {
   const HeightField& field = impl_->field;
-  const Raster given{field.frame.space ? field.samples : impl_->raster.samples, field.cols, field.rows};
-  return freeze(impl_->domain.tin, {SampleHeights(given), {}, field.frame, float32_positions});
+  const grid::Raster given{field.frame.space ? field.samples : impl_->raster.samples, field.cols, field.rows};
+  return pieces::freeze(impl_->domain.tin, {pieces::SampleHeights(given), {}, field.frame, float32_positions});
 }
 
 }  // namespace scarp

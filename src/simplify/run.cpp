@@ -22,24 +22,26 @@
 #include "simplify/pass_work.h"
 #include "simplify/proof.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
 /// Soft lines follow the raster to within this share of the error for which they are inserted.
 constexpr double kLineShare = 0.5;
 
-Result<Criterion> make_criterion(const Recipe& recipe, const Raster& raster) {
-  return Criterion::make(recipe.field, recipe.options, raster, recipe.aim * recipe.scale.start, recipe.scale.factor);
+Result<metric::Criterion> make_criterion(const pieces::Recipe& recipe, const grid::Raster& raster) {
+  return metric::Criterion::make(recipe.field, recipe.options, raster, recipe.aim * recipe.scale.start,
+                                 recipe.scale.factor);
 }
 
-const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
+const lines::ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
 
-Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
-                                          const ConstraintGraph* lines, StripTotals& strips) {
+Result<std::optional<pieces::Tiled>> refine_tiles(const pieces::Recipe& recipe, const grid::Raster& raster,
+                                                  const metric::Criterion& criterion,
+                                                  const lines::ConstraintGraph* lines, pieces::StripTotals& strips) {
   const HeightField& field = recipe.field;
   const SimplifyOptions& options = recipe.options;
-  TiledOptions tiles;
+  pieces::TiledOptions tiles;
   tiles.threshold = recipe.is_streamed ? criterion.aim() : criterion.largest_aim();
   tiles.threads = options.run.threads;
   tiles.memory = recipe.memory;
@@ -53,21 +55,23 @@ Result<std::optional<Tiled>> refine_tiles(const Recipe& recipe, const Raster& ra
     };
   }
   const double threshold = criterion.bound() ? criterion.aim() : recipe.aim * recipe.scale.line_error;
-  if (recipe.finishes_strips) work_by_strips(recipe, lines, criterion.source_bounds(), threshold, strips, tiles);
+  if (recipe.finishes_strips)
+    pieces::work_by_strips(recipe, lines, criterion.source_bounds(), threshold, strips, tiles);
   HeightField seen = field;
   if (field.frame.space) seen.samples = raster.samples;
-  if (!recipe.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(seen, tiles);
-  const CutSource near(*field.source, lines->cut->rows);
+  if (!recipe.is_streamed || lines == nullptr || !lines->cut) return pieces::refine_tiled(seen, tiles);
+  const grid::CutSource near(*field.source, lines->cut->rows);
   seen.source = &near;
-  return refine_tiled(seen, tiles);
+  return pieces::refine_tiled(seen, tiles);
 }
 
 /// Calls refine_tiles() and prepares lines in parallel.
-Result<std::optional<Tiled>> refine_beside_lines(const Recipe& recipe, const Raster& raster, const Criterion& criterion,
-                                                 LineWork* lines, StripTotals& strips) {
+Result<std::optional<pieces::Tiled>> refine_beside_lines(const pieces::Recipe& recipe, const grid::Raster& raster,
+                                                         const metric::Criterion& criterion, LineWork* lines,
+                                                         pieces::StripTotals& strips) {
   if (lines == nullptr || lines->is_prepared()) return refine_tiles(recipe, raster, criterion, graph_of(lines), strips);
   Result<void> prepared;
-  Result<std::optional<Tiled>> tiled;
+  Result<std::optional<pieces::Tiled>> tiled;
   run_beside(
       recipe.options.run.threads, [&] { prepared = lines->prepare(); },
       [&] { tiled = refine_tiles(recipe, raster, criterion, nullptr, strips); });
@@ -76,8 +80,8 @@ Result<std::optional<Tiled>> refine_beside_lines(const Recipe& recipe, const Ras
 }
 
 /// The passes of tiles and strips, `seconds` in all.
-std::vector<Pass> list_passes(const Recipe& recipe, const Work& tiles, const StripTotals& strips, bool has_lines,
-                              double seconds) {
+std::vector<Pass> list_passes(const pieces::Recipe& recipe, const Work& tiles, const pieces::StripTotals& strips,
+                              bool has_lines, double seconds) {
   const double beside = strips.seconds_of_fit + strips.seconds_of_lines + strips.seconds_of_refinement;
   std::vector<Pass> passes{pass_of("tiles", seconds - beside, tiles)};
   if (recipe.finishes_strips && has_lines) passes.push_back(pass_of("lines", strips.seconds_of_lines, strips.lines));
@@ -88,24 +92,24 @@ std::vector<Pass> list_passes(const Recipe& recipe, const Work& tiles, const Str
 }
 
 /// Algorithm III over the whole raster. REQUIRES: samples in memory.
-Result<Simplified> run_greedily(const Recipe& recipe, LineWork* lines) {
+Result<Simplified> run_greedily(const pieces::Recipe& recipe, LineWork* lines) {
   if (lines != nullptr) {
     SCARP_RETURN_IF_ERROR(lines->prepare());
   }
-  SCARP_TRY(auto&& samples, Samples::to_refine(recipe.field, recipe.options.run.threads));
-  const Raster raster = samples.raster();
+  SCARP_TRY(auto&& samples, grid::Samples::to_refine(recipe.field, recipe.options.run.threads));
+  const grid::Raster raster = samples.raster();
   SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
   return run_passes(recipe, raster, criterion, graph_of(lines), std::nullopt);
 }
 
 /// Runs by tiles, or greedily if heights or a coarse goal make tiles useless.
-Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
+Result<Simplified> run_by_tiles(const pieces::Recipe& recipe, LineWork* lines) {
   const HeightField& field = recipe.field;
   // The engine accepts nodata; all other code that reads samples outside the mesh needs clean ones.
-  Raster raster{field.samples, field.cols, field.rows};
-  std::optional<Samples> samples;
+  grid::Raster raster{field.samples, field.cols, field.rows};
+  std::optional<grid::Samples> samples;
   if (!recipe.is_streamed && recipe.reads_beyond) {
-    SCARP_TRY(auto&& cleaned, Samples::to_refine(field, recipe.options.run.threads));
+    SCARP_TRY(auto&& cleaned, grid::Samples::to_refine(field, recipe.options.run.threads));
     raster = samples.emplace(std::move(cleaned)).raster();
   }
   SCARP_TRY(const auto& criterion, make_criterion(recipe, raster));
@@ -113,7 +117,7 @@ Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
   const std::uint64_t bytes = proof_bytes(recipe);
   SCARP_RETURN_IF_ERROR(recipe.memory.check_start(bytes));
   const auto start = Clock::now();
-  StripTotals strips;
+  pieces::StripTotals strips;
   SCARP_TRY(auto&& tiled, refine_beside_lines(recipe, raster, criterion, lines, strips));
   if (!tiled) {
     if (recipe.is_streamed)
@@ -121,12 +125,12 @@ Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
                   "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
     return run_greedily(recipe, lines);
   }
-  const DomainMesh& domain = tiled->domain;
+  const refine::DomainMesh& domain = tiled->domain;
   SCARP_RETURN_IF_ERROR(recipe.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1));
   const double seconds = seconds_since(start);
   const std::vector<Pass> passes = list_passes(recipe, tiled->work, strips, lines != nullptr, seconds);
-  add(tiled->work, strips.refinement);
-  const ConstraintGraph* left = recipe.finishes_strips ? nullptr : graph_of(lines);
+  pieces::add(tiled->work, strips.refinement);
+  const lines::ConstraintGraph* left = recipe.finishes_strips ? nullptr : graph_of(lines);
   SCARP_TRY(auto&& result, run_passes(recipe, raster, criterion, left, std::move(tiled)));
   result.passes.insert(result.passes.begin(), passes.begin(), passes.end());
   result.seconds_refine += seconds;
@@ -135,32 +139,32 @@ Result<Simplified> run_by_tiles(const Recipe& recipe, LineWork* lines) {
 }
 
 /// Runs with the border first. REQUIRES: samples in memory.
-Result<Simplified> run_locked(const Recipe& recipe, LineWork* lines) {
+Result<Simplified> run_locked(const pieces::Recipe& recipe, LineWork* lines) {
   if (lines != nullptr) {
     SCARP_RETURN_IF_ERROR(lines->prepare());
   }
   const SimplifyOptions& options = recipe.options;
-  SCARP_TRY(const auto& samples, Samples::to_refine(recipe.field, options.run.threads));
+  SCARP_TRY(const auto& samples, grid::Samples::to_refine(recipe.field, options.run.threads));
   // The border's line needs valid tolerances.
   SCARP_RETURN_IF_ERROR(make_criterion(recipe, samples.raster()));
-  SCARP_TRY(const auto& border, LockedBorder::make(recipe.field, options, samples.raster()));
+  SCARP_TRY(const auto& border, pieces::LockedBorder::make(recipe.field, options, samples.raster()));
   if (lines != nullptr) {
-    SCARP_RETURN_IF_ERROR(border.check(lines->graph().points, kLatticeSteps));
+    SCARP_RETURN_IF_ERROR(border.check(lines->graph().points, grid::kLatticeSteps));
   }
-  const Raster raster = border.raster();
-  const Recipe inside = recipe.on(border.with_channels(recipe.field));
+  const grid::Raster raster = border.raster();
+  const pieces::Recipe inside = recipe.on(border.with_channels(recipe.field));
   SCARP_TRY(const auto& criterion, make_criterion(inside, raster));
   const auto start = Clock::now();
-  std::optional<Tiled> tiled;
+  std::optional<pieces::Tiled> tiled;
   if (lines == nullptr && recipe.is_dominant && !std::isinf(criterion.largest_aim())) {
     std::vector<Point> points;
     for (const auto& [col, row] : options.features.points) points.push_back({col, row});
-    TiledOptions alone;
+    pieces::TiledOptions alone;
     alone.threshold = criterion.largest_aim();
     alone.memory = recipe.memory;
     if (options.run.progress && !Reporter(options.run.progress).report("refine", 0, 0, 0))
       return fail(ErrorKind::kCancelled, "cancelled while refining");
-    SCARP_TRY(tiled, refine_alone(raster, border.vertices(), points, alone));
+    SCARP_TRY(tiled, pieces::refine_alone(raster, border.vertices(), points, alone));
   }
   const double seconds = seconds_since(start);
   const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;
@@ -171,13 +175,13 @@ Result<Simplified> run_locked(const Recipe& recipe, LineWork* lines) {
   return result;
 }
 
-Result<Simplified> run_along(const Recipe& recipe, LineWork* lines) {
+Result<Simplified> run_along(const pieces::Recipe& recipe, LineWork* lines) {
   switch (recipe.route) {
-    case Route::kLocked:
+    case pieces::Route::kLocked:
       return run_locked(recipe, lines);
-    case Route::kTiles:
+    case pieces::Route::kTiles:
       return run_by_tiles(recipe, lines);
-    case Route::kGreedy:
+    case pieces::Route::kGreedy:
       break;
   }
   return run_greedily(recipe, lines);
@@ -185,25 +189,25 @@ Result<Simplified> run_along(const Recipe& recipe, LineWork* lines) {
 
 /// `lines`: lines to insert, which are prepared or may wait; null: none. If free vertices break the bound, vertices on
 /// samples may satisfy it.
-Result<Simplified> run_with_lines(const Recipe& recipe, LineWork* lines) {
+Result<Simplified> run_with_lines(const pieces::Recipe& recipe, LineWork* lines) {
   auto result = run_along(recipe, lines);
   if (result || result.error().kind != ErrorKind::kPromise || !recipe.frees_vertices ||
       recipe.options.quality.vertices != Vertices::kAuto)
     return result;
-  Request on_samples = recipe.options;
+  metric::Request on_samples = recipe.options;
   on_samples.quality.vertices = Vertices::kSamples;
-  return run_along(Recipe(recipe.field, on_samples, recipe.scale), lines);
+  return run_along(pieces::Recipe(recipe.field, on_samples, recipe.scale), lines);
 }
 
 /// Prepares the lines of the features for the error `error` and runs with them.
-Result<Simplified> insert_features(const Recipe& recipe, double error, double seconds) {
+Result<Simplified> insert_features(const pieces::Recipe& recipe, double error, double seconds) {
   SCARP_RETURN_IF_ERROR(recipe.memory.check_start(0));
   LineWork work(recipe, kLineShare * error);
   if (!work.may_wait()) {
     SCARP_RETURN_IF_ERROR(work.prepare());
   }
   SCARP_TRY(auto&& result, run_with_lines(recipe.on(work.field()), &work));
-  FieldLines* const lines = &work.lines();
+  lines::FieldLines* const lines = &work.lines();
   result.passes.insert(result.passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result.edits = std::move(lines->edits);
   result.lines_inserted = lines->inserted;
@@ -215,17 +219,17 @@ Result<Simplified> insert_features(const Recipe& recipe, double error, double se
   return result;
 }
 
-Result<Simplified> run_with_features(const Recipe& recipe) {
+Result<Simplified> run_with_features(const pieces::Recipe& recipe) {
   const auto start = Clock::now();
-  const Request& asked = recipe.options;
+  const metric::Request& asked = recipe.options;
   const double error = asked.goals.max_error.value_or(recipe.scale.line_error);
   SCARP_TRY(auto&& fitted, fit_features(recipe.field, asked.features, {error, asked.run}));
-  Request options = asked;
+  metric::Request options = asked;
   options.features = {.breaklines = fitted.lines, .points = asked.features.points, .cutline = asked.features.cutline};
   const Features& features = options.features;
-  options.run.memory.taken += line_bytes(recipe.field, features.breaklines) +
-                              line_bytes(recipe.field, features.cutline.rings, features.cutline.affine);
-  const Recipe found(recipe.field, options, recipe.scale);
+  options.run.memory.taken += lines::line_bytes(recipe.field, features.breaklines) +
+                              lines::line_bytes(recipe.field, features.cutline.rings, features.cutline.affine);
+  const pieces::Recipe found(recipe.field, options, recipe.scale);
   // Perhaps neither walls nor ridges were found.
   SCARP_TRY(auto&& result,
             found.has_lines ? insert_features(found, error, seconds_since(start)) : run_with_lines(found, nullptr));
@@ -236,8 +240,8 @@ Result<Simplified> run_with_features(const Recipe& recipe) {
 
 }  // namespace
 
-Result<Simplified> run(const Recipe& recipe) {
+Result<Simplified> run(const pieces::Recipe& recipe) {
   return recipe.has_lines ? run_with_features(recipe) : run_with_lines(recipe, nullptr);
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -6,10 +6,10 @@
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Makes one mesh: towards the bounds or, if insertion stops at budgets, within the budgets. Fails like simplify().
 /// REQUIRES: checked options; a budget only if Search::kNone.
-Result<Simplified> run(const Recipe& recipe);
+Result<Simplified> run(const pieces::Recipe& recipe);
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -7,7 +7,7 @@
 #include "scarp/run.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// Reports the whole search as one pass. Each stage has a share of the remaining progress.
 class SearchProgress {
@@ -41,4 +41,4 @@ class SearchProgress {
   double begin_ = 0, end_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -35,30 +35,31 @@ Error name_budget(const SimplifyOptions& options, Error error) {
 
 /// A mesh with few vertices may need more of them for the requested angles and lengths than another mesh. So with shape
 /// goals, the next lower effort is also tried.
-Result<Simplified> simplify_towards(const Recipe& recipe) {
-  auto made = run(recipe);
+Result<Simplified> simplify_towards(const pieces::Recipe& recipe) {
+  auto made = run::run(recipe);
   if (!made || made->is_cut_short || !recipe.traits.lower || !recipe.options.quality.shape.any()) return made;
-  Request lower = recipe.options;
+  metric::Request lower = recipe.options;
   lower.quality.effort = *recipe.traits.lower;
-  lower.run.memory.taken += kMeshBytesPerVertex * made->mesh.vertex_count();
-  auto other = simplify_towards(Recipe(recipe.field, lower));
+  lower.run.memory.taken += run::kMeshBytesPerVertex * made->mesh.vertex_count();
+  auto other = simplify_towards(pieces::Recipe(recipe.field, lower));
   if (!other) return other.error().kind == ErrorKind::kCancelled ? std::move(other) : std::move(made);
   if (other->mesh.triangle_count() < made->mesh.triangle_count()) std::swap(*made, *other);
   Pass search{"search", other->seconds_refine + other->seconds_measure};
-  add_work(*other, search);
+  run::add_work(*other, search);
   made->passes.insert(made->passes.begin(), search);
   made->seconds_refine += search.seconds;
   made->effort = recipe.effort;
   return made;
 }
 
-Result<Simplified> meet_budget(const Recipe& recipe) {
-  if (recipe.search == Search::kNone) return run(recipe);
-  const BudgetTask task = make_budget_task(recipe);
-  return recipe.search == Search::kSquares ? search_squares(recipe.options, task) : search_budget(recipe.options, task);
+Result<Simplified> meet_budget(const pieces::Recipe& recipe) {
+  if (recipe.search == pieces::Search::kNone) return run::run(recipe);
+  const run::BudgetTask task = run::make_budget_task(recipe);
+  return recipe.search == pieces::Search::kSquares ? run::search_squares(recipe.options, task)
+                                                   : run::search_budget(recipe.options, task);
 }
 
-Result<Simplified> make_mesh(const Recipe& recipe) {
+Result<Simplified> make_mesh(const pieces::Recipe& recipe) {
   if (!recipe.has_budget) return simplify_towards(recipe);
   auto made = meet_budget(recipe);
   if (!made) return tl::unexpected(name_budget(recipe.options, std::move(made.error())));
@@ -67,20 +68,20 @@ Result<Simplified> make_mesh(const Recipe& recipe) {
 
 /// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined. The memory for one
 /// thread, which is the least, decides, because the mesh must not depend on the number of threads.
-Result<Simplified> simplify_by_default(const Recipe& recipe) {
+Result<Simplified> simplify_by_default(const pieces::Recipe& recipe) {
   WhyFast why = recipe.fits ? WhyFast::kBudget : WhyFast::kOrder;
   auto made = make_mesh(recipe);
   const auto lacks_memory = [&] { return !made && made.error().kind == ErrorKind::kMemory && recipe.fits; };
   if (lacks_memory() && recipe.options.run.threads != 1) {
-    Request alone = recipe.options;
+    metric::Request alone = recipe.options;
     alone.run.threads = 1;
-    made = make_mesh(Recipe(recipe.field, alone));
+    made = make_mesh(pieces::Recipe(recipe.field, alone));
   }
   if (lacks_memory()) {
-    Request fast = recipe.options;
+    metric::Request fast = recipe.options;
     fast.quality.effort = Effort::kFast;
     why = WhyFast::kMemory;
-    made = make_mesh(Recipe(recipe.field, fast));
+    made = make_mesh(pieces::Recipe(recipe.field, fast));
   }
   if (made && made->effort == Effort::kFast) made->why_fast = why;
   return made;
@@ -89,7 +90,7 @@ Result<Simplified> simplify_by_default(const Recipe& recipe) {
 /// Turns an exception in `work` into an error.
 Result<Simplified> without_exceptions(FunctionRef<Result<Simplified>()> work) try {
   return work();
-} catch (const SourceFailure& failure) {
+} catch (const grid::SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
@@ -101,9 +102,9 @@ Result<Simplified> without_exceptions(FunctionRef<Result<Simplified>()> work) tr
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) {
   return without_exceptions([&]() -> Result<Simplified> {
-    SCARP_RETURN_IF_ERROR(check_options(field, asked));
-    const Request request = settle_request(field, asked);
-    const Recipe recipe(field, request);
+    SCARP_RETURN_IF_ERROR(pieces::check_options(field, asked));
+    const metric::Request request = pieces::settle_request(field, asked);
+    const pieces::Recipe recipe(field, request);
     return request.chose_effort ? simplify_by_default(recipe) : make_mesh(recipe);
   });
 }
@@ -116,18 +117,21 @@ Result<Simplified> simplify(const HeightField& field, const Goals& goals) {
 
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options) {
   return without_exceptions([&]() -> Result<Simplified> {
-    Request request(SimplifyOptions{.goals = options.goals,
-                                    .tolerances = options.tolerances,
-                                    .features = {.points = options.points},
-                                    .quality = {.effort = Effort::kFast, .order = Order::kGreedy},
-                                    .domain = options.domain,
-                                    .output = options.output,
-                                    .run = options.run});
+    metric::Request request(SimplifyOptions{.goals = options.goals,
+                                            .tolerances = options.tolerances,
+                                            .features = {.points = options.points},
+                                            .quality = {.effort = Effort::kFast, .order = Order::kGreedy},
+                                            .domain = options.domain,
+                                            .output = options.output,
+                                            .run = options.run});
     request.strategy = options.strategy;
     if (options.domain.border.is_locked)
-      return fail(ErrorKind::kUsage, describe(find_conflicts(Fields(Field::kStrategy, Field::kBorder)).front()));
-    SCARP_RETURN_IF_ERROR(check_options(field, request));
-    auto made = run(Recipe(field, request));
+      return fail(
+          ErrorKind::kUsage,
+          pieces::describe(
+              pieces::find_conflicts(pieces::Fields(pieces::Field::kStrategy, pieces::Field::kBorder)).front()));
+    SCARP_RETURN_IF_ERROR(pieces::check_options(field, request));
+    auto made = run::run(pieces::Recipe(field, request));
     if (made) made->why_fast = WhyFast::kStrategy;
     return made;
   });

@@ -28,7 +28,7 @@ namespace scarp {
 namespace {
 
 /// Heights that vertices have in a mesh of float32 positions.
-Result<std::vector<double>> round_heights(const PointSet& points, const SnappedPoints& snapped) {
+Result<std::vector<double>> round_heights(const PointSet& points, const grid::SnappedPoints& snapped) {
   for (const auto& values : {std::span(points.x), std::span(points.y)}) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     if (*most - *least > std::numeric_limits<float>::max())
@@ -60,12 +60,13 @@ double middle(std::span<const double> values) {
 }
 
 /// Refuses points that rounding moves onto one line: the few points off it turn triangles over.
-Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, const ScatteredDomain& domain) {
-  const PointLattice& lattice = snapped.lattice;
+Result<void> check_width(const PointSet& points, const grid::SnappedPoints& snapped,
+                         const refine::ScatteredDomain& domain) {
+  const grid::PointLattice& lattice = snapped.lattice;
   const double reach = lattice.step * std::max(lattice.cols, lattice.rows) / 2;
   const double rounding = std::max(snapped.is_exact ? 0 : lattice.step / 2, reach * 0x1p-53);
   if (domain.width > 4 * rounding) return {};
-  const std::string far = describe_far_points(points);
+  const std::string far = grid::describe_far_points(points);
   return fail(ErrorKind::kInput,
               fmt::format("all points lie on one line, to {:.2g}, so there is no surface to simplify{}", domain.width,
                           far.empty() ? "" : "; " + far));
@@ -74,7 +75,7 @@ Result<void> check_width(const PointSet& points, const SnappedPoints& snapped, c
 using Outlines = std::vector<std::vector<std::uint32_t>>;
 
 /// The lattice points of a set's own boundary.
-Outlines snap_boundary(const PointSet& points, const SnappedPoints& snapped) {
+Outlines snap_boundary(const PointSet& points, const grid::SnappedPoints& snapped) {
   Outlines outlines;
   for (const auto& ring : points.boundary) {
     outlines.emplace_back();
@@ -83,18 +84,18 @@ Outlines snap_boundary(const PointSet& points, const SnappedPoints& snapped) {
   return outlines;
 }
 
-Result<PointMesh> run_from(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
-  SCARP_TRY(auto&& domain, build_domain(task.snapped, outlines));
+Result<run::PointMesh> run_from(const run::PointTask& task, const run::PointRecipe& recipe, const Outlines& outlines) {
+  SCARP_TRY(auto&& domain, refine::build_domain(task.snapped, outlines));
   for (const std::uint32_t point : task.lines.ends()) {
     const Point p = task.snapped.at[point];
     domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
   }
-  return run_points(task, recipe, std::move(domain));
+  return run::run_points(task, recipe, std::move(domain));
 }
 
 /// Judges a mesh by tolerances that were multiplied for it: the least factor that all errors keep, and the RMS of the
 /// ratios of error to bound.
-Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simplified& made) {
+Result<void> judge_factor(const run::PointTask& task, const PointOptions& asked, Simplified& made) {
   double factor = 0, squares = 0;
   std::uint64_t count = 0;
   MeasureOptions judge;
@@ -119,7 +120,7 @@ Result<void> judge_factor(const PointTask& task, const PointOptions& asked, Simp
 }
 
 /// Finds the mesh of a budget by runs for several errors or, with tolerances, for several factors of all bounds.
-Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const Outlines& outlines) {
+Result<run::PointMesh> search(const run::PointTask& task, const run::PointRecipe& recipe, const Outlines& outlines) {
   const PointOptions& asked = recipe.options;
   SimplifyOptions options;
   options.goals = {asked.max_error, asked.max_triangles, asked.max_vertices, asked.objective};
@@ -127,9 +128,9 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
   options.quality = asked.quality;
   options.run = asked.run;
   // The address of a run's positions, and its facts; a later run may reuse the address of a worse mesh.
-  std::vector<std::pair<const double*, PointFacts>> facts;
-  BudgetTask search;
-  search.run = [&](const SimplifyOptions& towards, const Scale& scale) -> Result<Simplified> {
+  std::vector<std::pair<const double*, run::PointFacts>> facts;
+  run::BudgetTask search;
+  search.run = [&](const SimplifyOptions& towards, const pieces::Scale& scale) -> Result<Simplified> {
     PointOptions once = asked;
     once.max_error = towards.goals.max_error;
     once.max_triangles = towards.goals.max_triangles;
@@ -137,7 +138,7 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     std::vector<float> tolerances;
     for (const float bound : asked.tolerances) tolerances.push_back(static_cast<float>(scale.factor * double{bound}));
     once.tolerances = tolerances;
-    SCARP_TRY(auto&& made, run_from(task, PointRecipe(task.points, once, scale), outlines));
+    SCARP_TRY(auto&& made, run_from(task, run::PointRecipe(task.points, once, scale), outlines));
     if (!tolerances.empty()) {
       SCARP_RETURN_IF_ERROR(judge_factor(task, asked, made.simplified));
     }
@@ -155,11 +156,11 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
     return 2 * (*most - *least) / (bound > 0 ? bound : 1);
   };
   search.least = task.least(asked);
-  SCARP_TRY(auto&& found,
-            recipe.search == Search::kSquares ? search_squares(options, search) : search_budget(options, search));
+  SCARP_TRY(auto&& found, recipe.search == pieces::Search::kSquares ? run::search_squares(options, search)
+                                                                    : run::search_budget(options, search));
   auto of_found = facts.rbegin();
   while (of_found->first != found.mesh.positions.data()) ++of_found;
-  return PointMesh{std::move(found), of_found->second};
+  return run::PointMesh{std::move(found), of_found->second};
 }
 
 }  // namespace
@@ -167,38 +168,39 @@ Result<PointMesh> search(const PointTask& task, const PointRecipe& recipe, const
 std::array<double, 2> local_origin(const PointSet& points) { return {middle(points.x), middle(points.y)}; }
 
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
-  SCARP_RETURN_IF_ERROR(check_point_options(points, options));
-  const PointRecipe recipe(points, options);
-  SCARP_TRY(const auto& snapped, snap_points(points, options.duplicates, recipe.steps));
-  SCARP_TRY(auto&& domain, build_domain(snapped));
+  SCARP_RETURN_IF_ERROR(run::check_point_options(points, options));
+  const run::PointRecipe recipe(points, options);
+  SCARP_TRY(const auto& snapped, grid::snap_points(points, options.duplicates, recipe.steps));
+  SCARP_TRY(auto&& domain, refine::build_domain(snapped));
   SCARP_RETURN_IF_ERROR(check_width(points, snapped, domain));
   const double width = domain.width;
-  const PointLattice& lattice = snapped.lattice;
+  const grid::PointLattice& lattice = snapped.lattice;
   const double area = lattice.step * lattice.cols * lattice.step * lattice.rows;
   SCARP_RETURN_IF_ERROR(
-      check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
+      pieces::check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
   if (!points.boundary.empty()) {
-    SCARP_TRY(domain, build_domain(snapped, snap_boundary(points, snapped)));
+    SCARP_TRY(domain, refine::build_domain(snapped, snap_boundary(points, snapped)));
   } else if (options.boundary_length) {
-    SCARP_TRY(domain, build_concave_domain(snapped, std::move(domain), *options.boundary_length));
+    SCARP_TRY(domain, refine::build_concave_domain(snapped, std::move(domain), *options.boundary_length));
   }
-  SCARP_TRY(const auto& lines, PointLines::build(points, snapped));
+  SCARP_TRY(const auto& lines, refine::PointLines::build(points, snapped));
   std::vector<double> rounded;
   if (options.float32_positions) {
     SCARP_TRY(rounded, round_heights(points, snapped));
   }
-  const PointTask task{points, snapped,      options.float32_positions ? std::span<const double>(rounded) : snapped.z,
-                       lines,  recipe.steps, width};
+  const run::PointTask task{
+      points, snapped,      options.float32_positions ? std::span<const double>(rounded) : snapped.z,
+      lines,  recipe.steps, width};
   SimplifiedPoints result;
   result.points = points.size();
   result.duplicates = snapped.duplicates;
   for (const auto& ring : domain.outlines) result.on_hull += ring.size();
   result.lattice_step = snapped.lattice.step;
   if (!options.boundary_length && points.boundary.empty() && points.lines.empty())
-    result.hull_fit = find_hull_fit(snapped);
+    result.hull_fit = refine::find_hull_fit(snapped);
   const Outlines outlines = domain.outlines;
   SCARP_TRY(auto&& made,
-            recipe.search == Search::kNone ? run_from(task, recipe, outlines) : search(task, recipe, outlines));
+            recipe.search == pieces::Search::kNone ? run_from(task, recipe, outlines) : search(task, recipe, outlines));
   result.simplified = std::move(made.simplified);
   result.flat = made.facts.flat;
   result.loose = made.facts.loose;

@@ -11,7 +11,7 @@
 #include "pieces/budget.h"
 #include "simplify/search_progress.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -68,7 +68,7 @@ class SquaresSearch {
   }
 
  private:
-  Result<Simplified> run_once(SimplifyOptions options, const Scale& scale, double share) {
+  Result<Simplified> run_once(SimplifyOptions options, const pieces::Scale& scale, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, "cancelled while searching for a start");
     options.run.progress = progress_.of_run(!scale.refines_only);
     return task_.run(options, scale);
@@ -82,24 +82,24 @@ class SquaresSearch {
 
   /// A number for which refinement makes about kSquareStart times the triangles.
   Result<double> find_start(double reached, double triangles) {
-    const double number = reached * std::pow(kSquareStart, -1 / kUsualPower);
+    const double number = reached * std::pow(fit::kSquareStart, -1 / kUsualPower);
     SimplifyOptions options = number_.towards(number);
     options.output.normals = options.output.uvs = false;
     const auto made = run_once(options, {.factor = number_.factor_of(number), .refines_only = true}, 0.1);
     if (!made && made.error().kind == ErrorKind::kCancelled) return tl::unexpected(made.error());
     if (!made) return number;
     const double grown = static_cast<double>(made->mesh.triangle_count()) / triangles;
-    is_saturated_ = grown <= kSquareStart / kNearStart;
-    if (!is_saturated_ && grown < kSquareStart * kNearStart) return number;
+    is_saturated_ = grown <= fit::kSquareStart / kNearStart;
+    if (!is_saturated_ && grown < fit::kSquareStart * kNearStart) return number;
     const double power = std::clamp(std::log(grown) / std::log(reached / number), 0.3, 4.0);
-    return reached * std::pow(kSquareStart, -1 / power);
+    return reached * std::pow(fit::kSquareStart, -1 / power);
   }
 
   Result<Simplified> run(double bound, double start) {
-    Scale scale{number_.factor_of(bound)};
+    pieces::Scale scale{number_.factor_of(bound)};
     scale.start = start;
-    scale.squares = SquareGoal{options_.goals.max_triangles.value_or(kNoBudget),
-                               options_.goals.max_vertices.value_or(kNoBudget), task_.traits.exchanges};
+    scale.squares = fit::SquareGoal{options_.goals.max_triangles.value_or(fit::kNoBudget),
+                                    options_.goals.max_vertices.value_or(fit::kNoBudget), task_.traits.exchanges};
     return run_once(number_.towards(bound), scale, 0.7);
   }
 
@@ -119,7 +119,7 @@ class SquaresSearch {
   const SimplifyOptions& options_;
   const BudgetTask& task_;
   BudgetNumber number_;
-  Budget budget_;
+  pieces::Budget budget_;
   SearchProgress progress_;
   bool is_saturated_ = false;  // smaller errors need only slightly more triangles: the mesh nearly follows every sample
 };
@@ -130,4 +130,4 @@ Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTa
   return SquaresSearch(options, task).execute();
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

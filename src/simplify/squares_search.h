@@ -10,7 +10,7 @@
 #include "scarp/simplify.h"
 #include "simplify/budget_search.h"
 
-namespace scarp {
+namespace scarp::run {
 
 /// The mesh within the budgets with the least Simplified::judged_rmse of all meshes made. Its judged_max_error is at
 /// most options.max_error if that is possible, else not larger than in the mesh of fast effort. If rounding, the bound
@@ -19,4 +19,4 @@ namespace scarp {
 /// this mesh.
 Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task);
 
-}  // namespace scarp
+}  // namespace scarp::run

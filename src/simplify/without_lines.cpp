@@ -21,30 +21,39 @@ tl::unexpected<Error> refuse() {
 LineConstraints Features::fixed_lines() const { return {}; }
 Result<FittedFeatures> fit_features(const HeightField&, const Features&, const FeatureFitOptions&) { return refuse(); }
 
-Result<ConstrainedMesh> ConstrainedMesh::insert(const Raster&, Triangulation&, const ConstraintGraph&) {
+Result<lines::ConstrainedMesh> lines::ConstrainedMesh::insert(const grid::Raster&, tin::Triangulation&,
+                                                              const lines::ConstraintGraph&) {
   return refuse();
 }
-void ConstrainedMesh::release_starts(Triangulation&) {}
-VertexLattice ConstrainedMesh::lattice(int) const { return {}; }
+void lines::ConstrainedMesh::release_starts(tin::Triangulation&) {}
+grid::VertexLattice lines::ConstrainedMesh::lattice(int) const { return {}; }
 
-bool is_inserted_first(const Line&) { return false; }
-std::uint64_t line_bytes(const HeightField&, std::span<const Line>, const std::array<double, 6>&) { return 0; }
-Result<FieldLines> prepare_lines(const HeightField&, const LineConstraints&, const Cutline&, double, int,
-                                 std::span<const std::int32_t>) {
+bool lines::is_inserted_first(const Line&) { return false; }
+std::uint64_t lines::line_bytes(const HeightField&, std::span<const Line>, const std::array<double, 6>&) { return 0; }
+Result<lines::FieldLines> lines::prepare_lines(const HeightField&, const LineConstraints&, const Cutline&, double, int,
+                                               std::span<const std::int32_t>) {
   return refuse();
 }
-HeightField FieldLines::apply(const HeightField& field) const { return field; }
+HeightField lines::FieldLines::apply(const HeightField& field) const { return field; }
 
-Result<ShapeWork> refine_shapes(const Raster&, Triangulation&, VertexLattice&, const ShapeTask&) { return refuse(); }
-Result<ShapeWork> refine_shapes(const SnappedPoints&, std::span<const double>, ScatteredDomain&, const ShapeGoals&,
-                                double, std::span<const double>, Reporter&) {
+Result<shape::ShapeWork> shape::refine_shapes(const grid::Raster&, tin::Triangulation&, grid::VertexLattice&,
+                                              const shape::ShapeTask&) {
   return refuse();
 }
-std::optional<ShapeRule> shape_rule(const ShapeGoals&, const PointLattice&) { return std::nullopt; }
-ShapeReport report_shapes(const Mesh&, const ShapeGoals&, const Triangulation&, const PointLattice&) { return {}; }
-Result<void> check_need(double, const MemoryBudget&, std::uint64_t) { return refuse(); }
-std::optional<ShapeRule> shape_rule(const ShapeGoals&, const Frame&) { return std::nullopt; }
-ShapeLosses count_losses(const Triangulation&, std::int32_t, const Frame&, const ShapeGoals&) { return {}; }
-ShapeReport report_shapes(const Mesh&, const ShapeGoals&, const ShapeLosses&) { return {}; }
+Result<shape::ShapeWork> shape::refine_shapes(const grid::SnappedPoints&, std::span<const double>,
+                                              refine::ScatteredDomain&, const ShapeGoals&, double,
+                                              std::span<const double>, Reporter&) {
+  return refuse();
+}
+std::optional<fit::ShapeRule> shape::shape_rule(const ShapeGoals&, const grid::PointLattice&) { return std::nullopt; }
+ShapeReport shape::report_shapes(const Mesh&, const ShapeGoals&, const tin::Triangulation&, const grid::PointLattice&) {
+  return {};
+}
+Result<void> shape::check_need(double, const MemoryBudget&, std::uint64_t) { return refuse(); }
+std::optional<fit::ShapeRule> shape::shape_rule(const ShapeGoals&, const Frame&) { return std::nullopt; }
+shape::ShapeLosses shape::count_losses(const tin::Triangulation&, std::int32_t, const Frame&, const ShapeGoals&) {
+  return {};
+}
+ShapeReport shape::report_shapes(const Mesh&, const ShapeGoals&, const shape::ShapeLosses&) { return {}; }
 
 }  // namespace scarp

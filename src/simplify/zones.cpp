@@ -10,7 +10,7 @@
 #include "base/sort.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::run {
 
 namespace {
 
@@ -192,4 +192,4 @@ std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Li
   return strings;
 }
 
-}  // namespace scarp
+}  // namespace scarp::run

@@ -11,7 +11,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::run {
 
 /// A polygon and the number of its material, for example a roughness or a soil.
 struct Zone {
@@ -32,6 +32,6 @@ std::vector<std::uint32_t> find_materials(const Mesh& mesh, const std::vector<Zo
 std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Line>& lines,
                                           const std::array<double, 6>& to_map, double reach);
 
-}  // namespace scarp
+}  // namespace scarp::run
 
 #pragma GCC visibility pop

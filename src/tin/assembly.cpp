@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 namespace {
 
@@ -17,7 +17,7 @@ struct PieceView {
   std::int32_t cols, rows;
 
   std::size_t point_count() const { return piece.points.size(); }
-  Point point(std::uint32_t i) const { return point_of(piece.points[i]); }
+  Point point(std::uint32_t i) const { return geom::point_of(piece.points[i]); }
   std::size_t triangle_count() const { return piece.outside.size(); }
   std::uint32_t corner(HalfEdge h) const { return piece.corners[h]; }
   HalfEdge twin(HalfEdge h) const {
@@ -54,7 +54,7 @@ void PieceMaker::clear(std::size_t vertices) {
 }
 
 /// The slot of p, or the free slot for it.
-PieceMaker::Slot& PieceMaker::find(TilePoint p) {
+PieceMaker::Slot& PieceMaker::find(geom::TilePoint p) {
   constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: spreads neighbours
   std::size_t i = (p * kGolden) >> shift_;
   while (slots_[i].id != kNone && slots_[i].at != p) i = (i + 1) & (slots_.size() - 1);
@@ -184,4 +184,4 @@ Triangulation Assembly::finish(std::vector<HalfEdge>& seams) {
   return std::move(tin_);
 }
 
-}  // namespace scarp
+}  // namespace scarp::tin

@@ -7,16 +7,16 @@
 #include "tin/tile_mesh.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 /// A finished tile without its workbench: 13 bytes less per triangle than Triangulation, and no links out of the tile.
 struct TilePiece {
   Point first;  ///< the tile's first sample in the raster
   std::int32_t cols = 0, rows = 0;
-  Array<TilePoint> points;       ///< vertices, in the order of first use
-  Array<std::uint32_t> corners;  ///< 3 per triangle: indices into points
-  Array<TileMesh::Link> links;   ///< 3 per triangle
-  Array<std::uint8_t> outside;   ///< 1 per triangle
+  Array<geom::TilePoint> points;  ///< vertices, in the order of first use
+  Array<std::uint32_t> corners;   ///< 3 per triangle: indices into points
+  Array<TileMesh::Link> links;    ///< 3 per triangle
+  Array<std::uint8_t> outside;    ///< 1 per triangle
 };
 
 /// Numbers the vertices of tile meshes; reuses its scratch memory (16 to 32 bytes a vertex).
@@ -26,11 +26,11 @@ class PieceMaker {
 
  private:
   struct Slot {
-    TilePoint at;
+    geom::TilePoint at;
     std::uint32_t id;  // kNone: free
   };
   void clear(std::size_t vertices);
-  Slot& find(TilePoint p);
+  Slot& find(geom::TilePoint p);
 
   Array<Slot> slots_;  // a hash table, open addressing
   unsigned shift_ = 0;
@@ -92,4 +92,4 @@ class Assembly {
   std::vector<HalfEdge> seams_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tin

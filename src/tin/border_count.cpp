@@ -4,7 +4,7 @@
 
 #include "base/point.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::uint64_t count_border_triangles(const Triangulation& tin) {
   return static_cast<std::uint64_t>(count);
 }
 
-}  // namespace scarp
+}  // namespace scarp::tin

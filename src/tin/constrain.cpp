@@ -12,7 +12,7 @@
 
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 namespace {
 
@@ -127,4 +127,4 @@ void Triangulation::force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& 
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::tin

@@ -5,24 +5,24 @@
 
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 namespace {
 
 constexpr unsigned kNext[3] = {1, 2, 0}, kPrevious[3] = {2, 0, 1};
 
 /// orient() for points of a tile: 32 bits suffice (2 · 4096²).
-std::int32_t orient(TilePoint a, TilePoint b, TilePoint c) {
-  const std::int32_t ax = tile_x(a), ay = tile_y(a);
-  return (tile_x(b) - ax) * (tile_y(c) - ay) - (tile_y(b) - ay) * (tile_x(c) - ax);
+std::int32_t orient(geom::TilePoint a, geom::TilePoint b, geom::TilePoint c) {
+  const std::int32_t ax = geom::tile_x(a), ay = geom::tile_y(a);
+  return (geom::tile_x(b) - ax) * (geom::tile_y(c) - ay) - (geom::tile_y(b) - ay) * (geom::tile_x(c) - ax);
 }
 
 /// True if p is strictly inside the circumcircle of a positive triangle. Exact in double: with differences below 2^12
 /// every term is an integer below 2^53.
-bool is_in_circle(const std::array<TilePoint, 3>& corners, double x, double y) {
-  const double ax = tile_x(corners[0]) - x, ay = tile_y(corners[0]) - y;
-  const double bx = tile_x(corners[1]) - x, by = tile_y(corners[1]) - y;
-  const double cx = tile_x(corners[2]) - x, cy = tile_y(corners[2]) - y;
+bool is_in_circle(const std::array<geom::TilePoint, 3>& corners, double x, double y) {
+  const double ax = geom::tile_x(corners[0]) - x, ay = geom::tile_y(corners[0]) - y;
+  const double bx = geom::tile_x(corners[1]) - x, by = geom::tile_y(corners[1]) - y;
+  const double cx = geom::tile_x(corners[2]) - x, cy = geom::tile_y(corners[2]) - y;
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
   return ax * (by * c2 - b2 * cy) - ay * (bx * c2 - b2 * cx) + a2 * (bx * cy - by * cx) > 0;
 }
@@ -31,8 +31,8 @@ bool is_in_circle(const std::array<TilePoint, 3>& corners, double x, double y) {
 
 void TileMesh::reset(std::int32_t cols, std::int32_t rows) {
   assert(cols >= 2 && rows >= 2 && cols <= kMaxTileSide && rows <= kMaxTileSide);
-  const TilePoint a = tile_point(0, 0), b = tile_point(cols - 1, 0), c = tile_point(cols - 1, rows - 1),
-                  d = tile_point(0, rows - 1);
+  const geom::TilePoint a = geom::tile_point(0, 0), b = geom::tile_point(cols - 1, 0),
+                        c = geom::tile_point(cols - 1, rows - 1), d = geom::tile_point(0, rows - 1);
   records_.resize(2);
   records_[0] = {{a, b, d}, {kBorder, 1 << 3 | 2, kBorder}, 0};
   records_[1] = {{b, c, d}, {kBorder, kBorder, 0 << 3 | 1}, 0};
@@ -46,7 +46,7 @@ void TileMesh::assign(const Triangulation& tin) {
     for (unsigned k = 0; k < 3; ++k) {
       const HalfEdge h = 3 * t + k, twin = tin.twin(h);
       const Point p = tin.point(tin.origin(h));
-      record.corners[k] = tile_point(p.x, p.y);
+      record.corners[k] = geom::tile_point(p.x, p.y);
       record.links[k] = twin == kNone ? kBorder : (twin / 3) << 3 | (tin.is_constrained(h) ? 4u : 0u) | twin % 3;
     }
     record.key = tin.is_outside(t) ? kOutside : 0;
@@ -54,7 +54,7 @@ void TileMesh::assign(const Triangulation& tin) {
   vertices_ = tin.vertex_count();
 }
 
-TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
+TileMesh::Cavity TileMesh::find_cavity(Id t, geom::TilePoint p) {
   removed_.clear();
   sides_.clear();
   stack_.clear();
@@ -71,7 +71,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
       split_to_ = record.corners[kNext[k]];
     }
   }
-  const double x = tile_x(p), y = tile_y(p);
+  const double x = geom::tile_x(p), y = geom::tile_y(p);
   // Depth first, with the next side counter-clockwise on top of the stack, so that sides are found in order.
   for (unsigned k = 3; k-- > 0;) stack_.push_back(t << 3 | k);
   while (!stack_.empty()) {
@@ -96,7 +96,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, TilePoint p) {
   return {removed_, sides_};
 }
 
-std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
+std::span<const TileMesh::Id> TileMesh::fill_cavity(geom::TilePoint p) {
   // If p is on the border, that side opens the fan: its ends are the first and the last spoke.
   const auto border = std::find_if(sides_.begin(), sides_.end(), [p](const Cavity::Side& side) {
     return side.beyond == kBorder && orient(side.from, side.to, p) == 0;
@@ -112,7 +112,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
     fresh_.push_back(static_cast<Id>(records_.size()));
     records_.resize(records_.size() + 1);
   }
-  const auto spoke_flag = [this](TilePoint q) {
+  const auto spoke_flag = [this](geom::TilePoint q) {
     return splits_constraint_ && (q == split_from_ || q == split_to_) ? 4u : 0u;
   };
   for (std::size_t i = 0; i < count; ++i) {
@@ -130,7 +130,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(TilePoint p) {
   return fresh_;
 }
 
-TileMesh::Id TileMesh::locate(TilePoint p, Id hint) const {
+TileMesh::Id TileMesh::locate(geom::TilePoint p, Id hint) const {
   // The edge that is tested first varies, since with constraints, a fixed order could cycle.
   std::uint32_t sequence = 12345;
   Link entered = kBorder;
@@ -148,7 +148,7 @@ TileMesh::Id TileMesh::locate(TilePoint p, Id hint) const {
   }
 }
 
-TileMesh::Id TileMesh::insert(TilePoint p, Id hint) {
+TileMesh::Id TileMesh::insert(geom::TilePoint p, Id hint) {
   const Id t = locate(p, hint);
   const auto& corners = records_[t].corners;
   if (std::find(corners.begin(), corners.end(), p) != corners.end()) return t;
@@ -156,4 +156,4 @@ TileMesh::Id TileMesh::insert(TilePoint p, Id hint) {
   return fill_cavity(p).front();
 }
 
-}  // namespace scarp
+}  // namespace scarp::tin

@@ -16,7 +16,7 @@
 #include "geom/tile_view.h"
 #include "tin/triangulation.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 class TileMesh {
  public:
@@ -26,9 +26,9 @@ class TileMesh {
   static constexpr Link kBorder = 0xffffffffu;
 
   struct Record {
-    std::array<TilePoint, 3> corners;  // positive orientation
-    std::array<Link, 3> links;         // links beyond edge k
-    std::int64_t key;                  // for the caller, at least 0; kOutside: not part of the domain
+    std::array<geom::TilePoint, 3> corners;  // positive orientation
+    std::array<Link, 3> links;               // links beyond edge k
+    std::int64_t key;                        // for the caller, at least 0; kOutside: not part of the domain
   };
   static_assert(sizeof(Record) == 32);
   static constexpr std::int64_t kOutside = -1;
@@ -53,22 +53,22 @@ class TileMesh {
   struct Cavity {
     std::span<const Id> removed;  ///< begins with t
     struct Side {
-      TilePoint from, to;  ///< the cavity lies to the left
+      geom::TilePoint from, to;  ///< the cavity lies to the left
       Link beyond;
       bool outside;  ///< state of the removed triangle at this side
     };
     std::span<const Side> sides;  ///< counter-clockwise around p
   };
-  Cavity find_cavity(Id t, TilePoint p);
+  Cavity find_cavity(Id t, geom::TilePoint p);
 
   /// Replaces the cavity of the last find_cavity(t, p) by a fan around p; returns the new triangles, with keys 0 or
   /// kOutside. Reuses removed ids. Constraints and outside marks are inherited.
-  std::span<const Id> fill_cavity(TilePoint p);
+  std::span<const Id> fill_cavity(geom::TilePoint p);
 
   /// Walks from `hint` to the triangle that holds p (closed).
-  Id locate(TilePoint p, Id hint) const;
+  Id locate(geom::TilePoint p, Id hint) const;
   /// Inserts p anywhere; `hint` is any triangle. Returns one of the new triangles, or one at p if p is a vertex.
-  Id insert(TilePoint p, Id hint);
+  Id insert(geom::TilePoint p, Id hint);
 
  private:
   void set_link(Link at, Link to) { records_[triangle_of(at)].links[edge_of(at)] = to; }
@@ -79,7 +79,7 @@ class TileMesh {
   std::vector<Cavity::Side> sides_;
   std::vector<Link> stack_;
   bool splits_constraint_ = false;  // p lies on a constrained edge, whose halves stay constrained
-  TilePoint split_from_ = 0, split_to_ = 0;
+  geom::TilePoint split_from_ = 0, split_to_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tin

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace scarp {
+namespace scarp::tin {
 
 Triangulation::Triangulation(Arrays arrays)
     : points_(std::move(arrays.points)),
@@ -163,7 +163,7 @@ Vertex Triangulation::insert(Point p, Location location, FlipRule* rule) {
 bool Triangulation::should_flip(HalfEdge h) const {
   if (!is_free(h)) return false;
   const auto [a, b, c] = corners(h / 3);
-  return in_circle(a, b, c, points_[corners_[previous(twins_[h])]]) > 0;
+  return geom::in_circle(a, b, c, points_[corners_[previous(twins_[h])]]) > 0;
 }
 
 // h = a→b in t = (a, b, c), its twin b→a in u = (b, a, d): the diagonal a–b of the quadrilateral a, d, b, c becomes
@@ -246,4 +246,4 @@ HalfEdge Triangulation::find_edge(Vertex a, Vertex b) const {
   return kNone;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tin

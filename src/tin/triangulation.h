@@ -8,7 +8,7 @@
 #include "base/array.h"
 #include "geom/predicates.h"
 
-namespace scarp {
+namespace scarp::tin {
 
 using Vertex = std::uint32_t;
 using Triangle = std::uint32_t;
@@ -160,4 +160,4 @@ class Triangulation {
   Triangle last_ = 0;              // a triangle at the vertex that was touched last
 };
 
-}  // namespace scarp
+}  // namespace scarp::tin

@@ -38,17 +38,17 @@ Segments tidy(Segments segments) {
   return segments;
 }
 
-Segments line_edges(const Arrangement& arranged) {
+Segments line_edges(const geom::Arrangement& arranged) {
   Segments edges;
   for (const auto& e : arranged.edges) {
     if (e.is_line) add(edges, arranged.vertices[e.a], arranged.vertices[e.b]);
   }
   return tidy(edges);
 }
-Segments constrained_edges(const Triangulation& tin) {
+Segments constrained_edges(const tin::Triangulation& tin) {
   Segments edges;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.is_constrained(h)) add(edges, tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h))));
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.is_constrained(h)) add(edges, tin.point(tin.origin(h)), tin.point(tin.origin(tin::Triangulation::next(h))));
   }
   return tidy(edges);
 }
@@ -101,12 +101,12 @@ struct Faces {
   }
 };
 
-Faces faces_of(const Triangulation& tin) {
+Faces faces_of(const tin::Triangulation& tin) {
   Faces faces;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     std::array<Faces::Side, 3> sides{};
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h)
-      sides[h % 3] = {tin.twin(h) == kNone ? Faces::kNowhere : tin.twin(h) / 3, tin.is_constrained(h)};
+    for (tin::HalfEdge h = 3 * t; h < 3 * t + 3; ++h)
+      sides[h % 3] = {tin.twin(h) == tin::kNone ? Faces::kNowhere : tin.twin(h) / 3, tin.is_constrained(h)};
     faces.sides.push_back(sides);
     const auto [a, b, c] = tin.corners(t);
     faces.areas.push_back(orient(a, b, c));
@@ -135,14 +135,14 @@ Faces faces_of(const Peer& peer) {
 /// Lines and rings in a raster, in steps.
 struct Soup {
   std::int32_t cols = 0, rows = 0;
-  Polylines lines;
+  geom::Polylines lines;
   std::vector<Point> samples;  ///< vertices inserted before lines
 
-  std::int32_t width() const { return (cols - 1) * kLatticeSteps; }
-  std::int32_t height() const { return (rows - 1) * kLatticeSteps; }
-  Arrangement arrange() const {
+  std::int32_t width() const { return (cols - 1) * grid::kLatticeSteps; }
+  std::int32_t height() const { return (rows - 1) * grid::kLatticeSteps; }
+  geom::Arrangement arrange() const {
     const Point a{0, 0}, b{width(), 0}, c{width(), height()}, d{0, height()};
-    return scarp::arrange(lines, std::vector<Segment>{{a, b}, {b, c}, {c, d}, {d, a}}, width(), height());
+    return scarp::geom::arrange(lines, std::vector<geom::Segment>{{a, b}, {b, c}, {c, d}, {d, a}}, width(), height());
   }
 };
 
@@ -150,7 +150,7 @@ Soup any_soup() {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const auto below = [&](std::int32_t n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
   Soup soup{2 + below(12), 2 + below(12), {}, {}};
-  const std::int32_t kGrains[] = {1, 16, kLatticeSteps / 2, kLatticeSteps};
+  const std::int32_t kGrains[] = {1, 16, grid::kLatticeSteps / 2, grid::kLatticeSteps};
   for (int count = 1 + below(6); count > 0; --count) {
     std::vector<Point> line;
     const std::int32_t grain = kGrains[below(4)];
@@ -165,7 +165,7 @@ Soup any_soup() {
 
 RC_GTEST_PROP(cgal, lines_that_cross_in_lattice_points_are_cut_as_cgal_cuts_them, ()) {
   const Soup soup = any_soup();
-  const Arrangement arranged = soup.arrange();
+  const geom::Arrangement arranged = soup.arrange();
   RC_PRE(arranged.is_exact);
   Peer peer;
   for (std::size_t k = 0; k < soup.lines.size(); ++k) {
@@ -179,20 +179,20 @@ RC_GTEST_PROP(cgal, lines_that_cross_in_lattice_points_are_cut_as_cgal_cuts_them
 
 RC_GTEST_PROP(cgal, a_constrained_triangulation_holds_the_edges_and_areas_of_cgals, ()) {
   const Soup soup = any_soup();
-  const Arrangement arranged = soup.arrange();
-  ConstraintGraph graph;
+  const geom::Arrangement arranged = soup.arrange();
+  lines::ConstraintGraph graph;
   graph.points = arranged.vertices;
   graph.heights.assign(graph.points.size(), 0);
   for (const auto& e : arranged.edges) {
     if (e.is_line) graph.edges.push_back({e.a, e.b});
   }
   const std::vector<float> heights(static_cast<std::size_t>(soup.cols) * static_cast<std::size_t>(soup.rows), 0.0F);
-  Triangulation tin(soup.cols, soup.rows);
+  tin::Triangulation tin(soup.cols, soup.rows);
   for (const Point p : soup.samples) tin.insert(p, tin.locate(p, tin.last_touched()));
-  RC_ASSERT(ConstrainedMesh::insert({heights.data(), soup.cols, soup.rows}, tin, graph).has_value());
+  RC_ASSERT(lines::ConstrainedMesh::insert({heights.data(), soup.cols, soup.rows}, tin, graph).has_value());
 
   Peer peer;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) peer.insert(to_peer(tin.point(v)));
+  for (tin::Vertex v = 0; v < tin.vertex_count(); ++v) peer.insert(to_peer(tin.point(v)));
   for (const auto& [a, b] : graph.edges) peer.insert_constraint(to_peer(graph.points[a]), to_peer(graph.points[b]));
   RC_ASSERT(peer.number_of_vertices() == tin.vertex_count());  // nothing remained to cut
   RC_ASSERT(constrained_edges(tin) == constrained_edges(peer));
@@ -200,10 +200,10 @@ RC_GTEST_PROP(cgal, a_constrained_triangulation_holds_the_edges_and_areas_of_cga
   RC_ASSERT(ours.areas.size() == theirs.areas.size());
   RC_ASSERT(ours.areas_by_depth() == theirs.areas_by_depth());
 
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.is_constrained(h) || tin.twin(h) == kNone) continue;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.is_constrained(h) || tin.twin(h) == tin::kNone) continue;
     const auto [a, b, c] = tin.corners(h / 3);
-    const Point d = tin.point(tin.origin(Triangulation::previous(tin.twin(h))));
+    const Point d = tin.point(tin.origin(tin::Triangulation::previous(tin.twin(h))));
     RC_ASSERT(CGAL::side_of_oriented_circle(to_peer(a), to_peer(b), to_peer(c), to_peer(d)) != CGAL::ON_POSITIVE_SIDE);
   }
 }

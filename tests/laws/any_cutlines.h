@@ -79,9 +79,10 @@ class Draughtsman {
     cutline.rings.push_back(ring);
   }
   std::pair<double, double> side(std::int32_t size) {
-    const std::int32_t grain = below(2) == 0 ? 1 : kLatticeSteps, steps = (size + 1) * kLatticeSteps / grain;
+    const std::int32_t grain = below(2) == 0 ? 1 : grid::kLatticeSteps,
+                       steps = (size + 1) * grid::kLatticeSteps / grain;
     const std::int32_t a = below(steps), b = below(steps);
-    const auto place = [&](std::int32_t step) { return static_cast<double>(step * grain) / kLatticeSteps - 1; };
+    const auto place = [&](std::int32_t step) { return static_cast<double>(step * grain) / grid::kLatticeSteps - 1; };
     return {place(std::min(a, b)), place(std::max(a, b) + 1)};
   }
 
@@ -196,12 +197,12 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
   if (corners == 15) return 2 * (x1 - x0) * (y1 - y0);
   for (int k = 0; k < 4; ++k) {
     if (corners != (15 & ~(1 << k))) continue;
-    x0 -= std::int64_t{col} * kLatticeSteps, x1 -= std::int64_t{col} * kLatticeSteps;
-    y0 -= std::int64_t{row} * kLatticeSteps, y1 -= std::int64_t{row} * kLatticeSteps;
+    x0 -= std::int64_t{col} * grid::kLatticeSteps, x1 -= std::int64_t{col} * grid::kLatticeSteps;
+    y0 -= std::int64_t{row} * grid::kLatticeSteps, y1 -= std::int64_t{row} * grid::kLatticeSteps;
     // Mirrors the cell so that the nodata corner is the last one.
-    if (k % 2 == 0) std::tie(x0, x1) = std::pair(kLatticeSteps - x1, kLatticeSteps - x0);
-    if (k / 2 == 0) std::tie(y0, y1) = std::pair(kLatticeSteps - y1, kLatticeSteps - y0);
-    return doubled_below(x0, x1, y0, y1, kLatticeSteps);
+    if (k % 2 == 0) std::tie(x0, x1) = std::pair(grid::kLatticeSteps - x1, grid::kLatticeSteps - x0);
+    if (k / 2 == 0) std::tie(y0, y1) = std::pair(grid::kLatticeSteps - y1, grid::kLatticeSteps - y0);
+    return doubled_below(x0, x1, y0, y1, grid::kLatticeSteps);
   }
   return 0;
 }
@@ -210,12 +211,14 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
 /// all sides.
 inline std::int64_t doubled_area(const Field& field, const Cutline& cutline) {
   std::vector<std::int64_t> xs, ys;
-  for (std::int32_t col = 0; col < field.cols; ++col) xs.push_back(std::int64_t{col} * kLatticeSteps);
-  for (std::int32_t row = 0; row < field.rows; ++row) ys.push_back(std::int64_t{row} * kLatticeSteps);
+  for (std::int32_t col = 0; col < field.cols; ++col) xs.push_back(std::int64_t{col} * grid::kLatticeSteps);
+  for (std::int32_t row = 0; row < field.rows; ++row) ys.push_back(std::int64_t{row} * grid::kLatticeSteps);
   for (const Line& ring : cutline.rings) {
     for (const auto& p : ring.points) {
-      xs.push_back(std::clamp<std::int64_t>(std::llround(p[0] * kLatticeSteps), 0, (field.cols - 1) * kLatticeSteps));
-      ys.push_back(std::clamp<std::int64_t>(std::llround(p[1] * kLatticeSteps), 0, (field.rows - 1) * kLatticeSteps));
+      xs.push_back(std::clamp<std::int64_t>(std::llround(p[0] * grid::kLatticeSteps), 0,
+                                            (field.cols - 1) * grid::kLatticeSteps));
+      ys.push_back(std::clamp<std::int64_t>(std::llround(p[1] * grid::kLatticeSteps), 0,
+                                            (field.rows - 1) * grid::kLatticeSteps));
     }
   }
   for (auto* values : {&xs, &ys}) std::sort(values->begin(), values->end());
@@ -223,8 +226,8 @@ inline std::int64_t doubled_area(const Field& field, const Cutline& cutline) {
   for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
     for (std::size_t k = 0; k + 1 < ys.size(); ++k) {
       if (xs[i] == xs[i + 1] || ys[k] == ys[k + 1]) continue;
-      const double x = static_cast<double>(xs[i] + xs[i + 1]) / 2 / kLatticeSteps,
-                   y = static_cast<double>(ys[k] + ys[k + 1]) / 2 / kLatticeSteps;
+      const double x = static_cast<double>(xs[i] + xs[i + 1]) / 2 / grid::kLatticeSteps,
+                   y = static_cast<double>(ys[k] + ys[k + 1]) / 2 / grid::kLatticeSteps;
       if (is_in_polygons(cutline, x, y))
         area += doubled_in_cell(field, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
                                 {xs[i], xs[i + 1], ys[k], ys[k + 1]});

@@ -34,8 +34,8 @@ class AnyLand final : public NodeSource {
     if (has_voids_ &&
         mix(static_cast<std::uint32_t>(col / 9) * 31u + static_cast<std::uint32_t>(row / 7) + seed_) % 11 == 0)
       return kNoHeight;
-    const double wave = sine_of_degrees(std::fmod(lon * 977 + seed_ % 360, 720)).sine *
-                        sine_of_degrees(std::fmod(lat * 1201, 720)).cosine;
+    const double wave = globe::sine_of_degrees(std::fmod(lon * 977 + seed_ % 360, 720)).sine *
+                        globe::sine_of_degrees(std::fmod(lat * 1201, 720)).cosine;
     const double step = std::fmod(lon * 53 + lat * 17 + 1e4, 7) < 0.4 ? relief_ / 3 : 0;
     return static_cast<float>(relief_ / 2 * wave + step + noise_ * (hash % 1024) / 1024.0);
   }

@@ -15,11 +15,11 @@
 namespace scarp::arrangement_laws_test {
 namespace {
 
-using Edge = Arrangement::Edge;
+using Edge = geom::Arrangement::Edge;
 
 struct Soup {
-  Polylines lines;
-  std::vector<Segment> rigid;
+  geom::Polylines lines;
+  std::vector<geom::Segment> rigid;
   std::int32_t width = 0, height = 0;
 };
 
@@ -45,7 +45,8 @@ class Cook {
   void add_rigid(Soup& soup) {
     if (!sometimes(4)) {
       const std::int32_t w = soup.width, h = soup.height;
-      for (const Segment& s : {Segment{{0, 0}, {w, 0}}, {{w, 0}, {w, h}}, {{w, h}, {0, h}}, {{0, h}, {0, 0}}})
+      for (const geom::Segment& s :
+           {geom::Segment{{0, 0}, {w, 0}}, {{w, 0}, {w, h}}, {{w, h}, {0, h}}, {{0, h}, {0, 0}}})
         soup.rigid.push_back(s);
     }
     const std::int32_t kSteps[] = {2, 4, 8}, step = std::min(soup.width, soup.height) / kSteps[below(3)] / 2 * 2;
@@ -117,7 +118,7 @@ bool between(Point a, Point b, Point p) {
 bool on(Point a, Point b, Point p) { return orient(a, b, p) == 0 && between(a, b, p); }
 
 /// A pair that breaks law (1), by testing all pairs.
-std::string find_crossing(const Arrangement& result) {
+std::string find_crossing(const geom::Arrangement& result) {
   const auto& v = result.vertices;
   for (const Edge& e : result.edges) {
     if (e.a >= e.b) return "an edge is a point or the wrong way round";
@@ -136,7 +137,7 @@ std::string find_crossing(const Arrangement& result) {
 }
 
 /// |doubled distance in each coordinate| <= reach for some point of the segment.
-bool is_near(Segment s, Point p, std::int64_t reach) {
+bool is_near(geom::Segment s, Point p, std::int64_t reach) {
   const std::int64_t dx = std::int64_t{s.to.x} - s.from.x, dy = std::int64_t{s.to.y} - s.from.y;
   const Int128 off = 2 * (Int128{dx} * (std::int64_t{p.y} - s.from.y) - Int128{dy} * (std::int64_t{p.x} - s.from.x));
   if ((off < 0 ? -off : off) > Int128{reach} * (std::abs(dx) + std::abs(dy))) return false;
@@ -148,7 +149,7 @@ bool is_near(Segment s, Point p, std::int64_t reach) {
 
 bool is_inside(const Soup& soup, Point p) { return p.x >= 0 && p.y >= 0 && p.x <= soup.width && p.y <= soup.height; }
 
-std::string judge_chains(const Soup& soup, const Arrangement& result) {
+std::string judge_chains(const Soup& soup, const geom::Arrangement& result) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> lines;
   for (const Edge& e : result.edges) {
     if (e.is_line) lines.insert({e.a, e.b});
@@ -158,11 +159,11 @@ std::string judge_chains(const Soup& soup, const Arrangement& result) {
   std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> stops(soup.lines.size());  // place, vertex
   for (const auto& chain : result.chains) {
     const auto line = soup.lines[chain.line];
-    const Arrangement::Stop* last = nullptr;
+    const geom::Arrangement::Stop* last = nullptr;
     const auto all = result.stops_of(chain);
     if (all.size() < 2) return "a chain of one vertex";
     for (const auto& stop : all) {
-      const Segment s{line[stop.segment], line[stop.segment + 1]};
+      const geom::Segment s{line[stop.segment], line[stop.segment + 1]};
       const bool is_cut = !is_inside(soup, s.from) || !is_inside(soup, s.to);
       const Point p = result.vertices[stop.vertex];
       if (!is_inside(soup, p)) return "outside";
@@ -200,9 +201,9 @@ std::string judge_chains(const Soup& soup, const Arrangement& result) {
 }
 
 /// The lattice steps of segments along axes and diagonals, as disjoint intervals on their lines.
-std::vector<std::array<std::int64_t, 4>> stretches(const std::vector<Segment>& segments) {
+std::vector<std::array<std::int64_t, 4>> stretches(const std::vector<geom::Segment>& segments) {
   std::vector<std::array<std::int64_t, 4>> sorted;
-  for (Segment s : segments) {
+  for (geom::Segment s : segments) {
     if (before(s.to, s.from)) std::swap(s.from, s.to);
     const std::int64_t dx = sign_of(s.to.x - s.from.x), dy = sign_of(s.to.y - s.from.y);
     const std::int64_t begin = dy != 0 ? s.from.y : s.from.x, end = dy != 0 ? s.to.y : s.to.x;
@@ -220,8 +221,8 @@ std::vector<std::array<std::int64_t, 4>> stretches(const std::vector<Segment>& s
   return merged;
 }
 
-std::string judge_rigid(const Soup& soup, const Arrangement& result) {
-  std::vector<Segment> found;
+std::string judge_rigid(const Soup& soup, const geom::Arrangement& result) {
+  std::vector<geom::Segment> found;
   for (const Edge& e : result.edges) {
     const Point a = result.vertices[e.a], b = result.vertices[e.b];
     if (!e.is_rigid) continue;
@@ -231,11 +232,11 @@ std::string judge_rigid(const Soup& soup, const Arrangement& result) {
   return stretches(found) == stretches(soup.rigid) ? "" : "rigid edges are not the rigid segments";
 }
 
-Arrangement arrange(const Soup& soup) { return arrange(soup.lines, soup.rigid, soup.width, soup.height); }
+geom::Arrangement arrange(const Soup& soup) { return geom::arrange(soup.lines, soup.rigid, soup.width, soup.height); }
 
 RC_GTEST_PROP(arrangement, crosses_nowhere, ()) {
   const Soup soup = Cook(*rc::gen::arbitrary<std::uint32_t>()).cook();
-  const Arrangement result = arrange(soup);
+  const geom::Arrangement result = arrange(soup);
   RC_ASSERT(std::is_sorted(result.vertices.begin(), result.vertices.end(), before));
   RC_ASSERT(find_crossing(result) == "");
 }
@@ -252,12 +253,12 @@ RC_GTEST_PROP(arrangement, rigid_segments_do_not_bend, ()) {
 
 RC_GTEST_PROP(arrangement, arranging_it_again_changes_nothing, ()) {
   Soup soup = Cook(*rc::gen::arbitrary<std::uint32_t>()).cook();
-  const Arrangement once = arrange(soup);
+  const geom::Arrangement once = arrange(soup);
   soup.lines = {};
   for (const Edge& e : once.edges) {
     if (e.is_line) soup.lines.add(std::vector{once.vertices[e.b], once.vertices[e.a]});
   }
-  const Arrangement twice = arrange(soup);
+  const geom::Arrangement twice = arrange(soup);
   RC_ASSERT(twice.is_exact);
   RC_ASSERT(twice.vertices == once.vertices);
   RC_ASSERT(twice.edges == once.edges);
@@ -266,7 +267,7 @@ RC_GTEST_PROP(arrangement, arranging_it_again_changes_nothing, ()) {
 RC_GTEST_PROP(arrangement, does_not_depend_on_the_order_or_direction_of_lines, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   Soup soup = Cook(seed).cook();
-  const Arrangement once = arrange(soup);
+  const geom::Arrangement once = arrange(soup);
   std::mt19937 random(seed);
   std::vector<std::vector<Point>> shuffled;
   for (std::size_t k = 0; k < soup.lines.size(); ++k) {
@@ -275,12 +276,12 @@ RC_GTEST_PROP(arrangement, does_not_depend_on_the_order_or_direction_of_lines, (
   }
   std::shuffle(shuffled.begin(), shuffled.end(), random);
   std::shuffle(soup.rigid.begin(), soup.rigid.end(), random);
-  for (Segment& s : soup.rigid) {
+  for (geom::Segment& s : soup.rigid) {
     if (random() % 2 == 0) std::swap(s.from, s.to);
   }
   soup.lines = {};
   for (const auto& line : shuffled) soup.lines.add(line);
-  const Arrangement again = arrange(soup);
+  const geom::Arrangement again = arrange(soup);
   RC_ASSERT(again.vertices == once.vertices);
   RC_ASSERT(again.edges == once.edges);
 }
@@ -296,7 +297,7 @@ RC_GTEST_PROP(arrangement, lines_that_cross_in_lattice_points_do_not_move, ()) {
     const Point to{x + (way == 3 ? 0 : length), y + (way == 3 ? length : kWays[way] * length)};
     soup.lines.add(std::vector<Point>{{x, y}, to});
   }
-  const Arrangement result = arrange(soup);
+  const geom::Arrangement result = arrange(soup);
   RC_ASSERT(result.is_exact);
   for (const auto& chain : result.chains) {
     const auto line = soup.lines[chain.line];
@@ -306,9 +307,9 @@ RC_GTEST_PROP(arrangement, lines_that_cross_in_lattice_points_do_not_move, ()) {
 }
 
 TEST(arrangement, a_bow_tie_gets_a_knot) {
-  Polylines lines;
+  geom::Polylines lines;
   lines.add(std::vector<Point>{{0, 0}, {10, 10}, {10, 0}, {0, 10}, {0, 0}});
-  const Arrangement result = arrange(lines, {}, 10, 10);
+  const geom::Arrangement result = geom::arrange(lines, {}, 10, 10);
   EXPECT_EQ(result.vertices.size(), 5u);
   EXPECT_EQ(result.edges.size(), 6u);
   EXPECT_TRUE(result.is_exact);
@@ -320,11 +321,11 @@ TEST(arrangement, a_bow_tie_gets_a_knot) {
 /// The line passes the corners of (1, 1), (4, 2) and (7, 3). The first and the last belong to these squares because
 /// rigid segments cross them.
 TEST(arrangement, a_bent_piece_is_split_where_a_vertex_lies_on_it) {
-  Polylines lines;
+  geom::Polylines lines;
   lines.add(std::vector<Point>{{0, 0}, {9, 3}});
   lines.add(std::vector<Point>{{4, 2}, {4, 8}});
-  const std::vector<Segment> rigid{{{0, 2}, {2, 0}}, {{6, 4}, {8, 2}}};
-  const Arrangement result = arrange(lines, rigid, 10, 10);
+  const std::vector<geom::Segment> rigid{{{0, 2}, {2, 0}}, {{6, 4}, {8, 2}}};
+  const geom::Arrangement result = geom::arrange(lines, rigid, 10, 10);
   EXPECT_EQ(find_crossing(result), "");
   ASSERT_EQ(result.chains.size(), 2u);
   std::vector<Point> passed;
@@ -333,11 +334,11 @@ TEST(arrangement, a_bent_piece_is_split_where_a_vertex_lies_on_it) {
 }
 
 TEST(arrangement, a_line_that_leaves_becomes_several_chains) {
-  Polylines lines;
+  geom::Polylines lines;
   lines.add(std::vector<Point>{{2, 2}, {2, -8}, {8, -8}, {8, 2}, {8, 2}, {9, 3}});
   lines.add(std::vector<Point>{{-5, -5}, {-1, 20}, {0, 10}});  // touches only the corner
   lines.add(std::vector<Point>{{4, 4}, {4, 4}});
-  const Arrangement result = arrange(lines, {}, 10, 10);
+  const geom::Arrangement result = geom::arrange(lines, {}, 10, 10);
   ASSERT_EQ(result.chains.size(), 2u);
   const auto first = result.stops_of(result.chains[0]), second = result.stops_of(result.chains[1]);
   ASSERT_EQ(first.size(), 2u);
@@ -353,10 +354,10 @@ TEST(arrangement, a_line_that_leaves_becomes_several_chains) {
 
 TEST(arrangement, takes_coordinates_as_large_as_they_come) {
   constexpr std::int32_t kLeast = -2147483647 - 1, kMost = 2147483647;
-  Polylines lines;
+  geom::Polylines lines;
   lines.add(std::vector<Point>{{kLeast, kLeast}, {kMost, kMost}, {kMost, kLeast}, {kLeast, kMost}});
   lines.add(std::vector<Point>{{kLeast, 1}, {kMost, 2}, {kLeast, 3}});
-  const Arrangement result = arrange(lines, {}, kMaxCoordinate, kMaxCoordinate);
+  const geom::Arrangement result = geom::arrange(lines, {}, kMaxCoordinate, kMaxCoordinate);
   EXPECT_EQ(find_crossing(result), "");
   EXPECT_EQ(result.vertices.front(), (Point{0, 0}));
   EXPECT_EQ(result.vertices.back(), (Point{kMaxCoordinate, kMaxCoordinate}));
@@ -365,10 +366,10 @@ TEST(arrangement, takes_coordinates_as_large_as_they_come) {
 TEST(arrangement, what_lines_share_is_passed_once) {
   constexpr std::uint32_t kLines = 20000;
   constexpr std::int32_t kSize = 1 << 20;
-  Polylines lines;
+  geom::Polylines lines;
   for (std::int32_t k = 0; k < std::int32_t{kLines}; ++k)
     lines.add(std::vector<Point>{{k, 2 * k}, {kSize / 2 - 3 * k, kSize - 6 * k}});
-  const Arrangement result = arrange(lines, {}, kSize, kSize);
+  const geom::Arrangement result = geom::arrange(lines, {}, kSize, kSize);
   EXPECT_EQ(result.vertices.size(), 2 * kLines);
   EXPECT_EQ(result.edges.size(), 2 * kLines - 1);
   EXPECT_EQ(result.passes.size(), 2 * kLines);
@@ -382,9 +383,9 @@ TEST(arrangement, what_lines_share_is_passed_once) {
 
 TEST(arrangement, thousands_of_lines_may_meet_in_one_point) {
   constexpr std::int32_t kSize = 1 << 20;
-  Polylines lines;
+  geom::Polylines lines;
   for (std::int32_t k = 0; k < 2000; ++k) lines.add(std::vector<Point>{{k * 500, 0}, {kSize - k * 500, kSize}});
-  const Arrangement result = arrange(lines, {}, kSize, kSize);
+  const geom::Arrangement result = geom::arrange(lines, {}, kSize, kSize);
   EXPECT_TRUE(result.is_exact);
   EXPECT_EQ(result.vertices.size(), 4001u);
   EXPECT_EQ(result.edges.size(), 4000u);

@@ -15,7 +15,7 @@ class ArraySource : public SampleSource {
   explicit ArraySource(const HeightField& field, int broken_row = 1 << 30) : field_(field), broken_row_(broken_row) {}
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     if (row + rows > broken_row_) return fail(ErrorKind::kInput, "row " + std::to_string(broken_row_) + " is broken");
-    return read_window(field_, col, row, cols, rows, out, stride);
+    return grid::read_window(field_, col, row, cols, rows, out, stride);
   }
   bool is_in_memory() const override { return false; }
 

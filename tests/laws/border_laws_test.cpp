@@ -24,12 +24,12 @@ Field any_field(std::int32_t least, std::int32_t largest) {
 
 double any_threshold() { return *rc::gen::element(0.0, 0.25, 1.0, 2.0, 7.3, 1e6); }
 
-std::vector<std::int32_t> chain_of(const Field& field, const BorderLine& line, double threshold) {
-  return *simplify_border(field.view(), line, threshold);
+std::vector<std::int32_t> chain_of(const Field& field, const pieces::BorderLine& line, double threshold) {
+  return *pieces::simplify_border(field.view(), line, threshold);
 }
 
 /// Valid corners of a cell; 0 beyond the raster.
-int valid_corners_of(const Raster& raster, std::int32_t x, std::int32_t y) {
+int valid_corners_of(const grid::Raster& raster, std::int32_t x, std::int32_t y) {
   if (x < 0 || y < 0 || x + 1 >= raster.cols || y + 1 >= raster.rows) return 0;
   return raster.is_valid({x, y}) + raster.is_valid({x + 1, y}) + raster.is_valid({x, y + 1}) +
          raster.is_valid({x + 1, y + 1});
@@ -40,7 +40,7 @@ RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   Field field = any_field(3, 200);
   for (float& z : field.samples) z = std::round(z * 256) / 256;
   const double threshold = *rc::gen::element(0.0, 0.25, 1.0, 7.125, 30.0009765625, 1e6);
-  const BorderLine line{0, field.rows / 2, field.cols - 1, false};
+  const pieces::BorderLine line{0, field.rows / 2, field.cols - 1, false};
   const auto kept = chain_of(field, line, threshold);
   RC_ASSERT(std::is_sorted(kept.begin(), kept.end()));
   RC_ASSERT(std::adjacent_find(kept.begin(), kept.end()) == kept.end());
@@ -48,7 +48,7 @@ RC_GTEST_PROP(border_chain, keeps_the_bound_on_the_line_exactly, ()) {
   std::vector<std::int32_t> places{0};
   places.insert(places.end(), kept.begin(), kept.end());
   places.push_back(line.steps);
-  const Raster raster = field.raster();
+  const grid::Raster raster = field.raster();
   const auto scaled = [](double value) { return static_cast<Int128>(std::llround(value * 1024)); };
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const std::int32_t a = places[k], b = places[k + 1];
@@ -79,7 +79,7 @@ RC_GTEST_PROP(border_chain, keeps_the_bound_for_any_floats, ()) {
   for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     const std::int32_t a = places[k], b = places[k + 1];
     for (std::int32_t i = a + 1; i < b; ++i)
-      RC_ASSERT(!exceeds_exactly_between(heights[a], heights[b], i - a, b - a, heights[i], threshold));
+      RC_ASSERT(!geom::exceeds_exactly_between(heights[a], heights[b], i - a, b - a, heights[i], threshold));
   }
 }
 
@@ -95,7 +95,7 @@ RC_GTEST_PROP(border_chain, columns_are_rows_of_the_transposed_raster, ()) {
 RC_GTEST_PROP(border_chain, knows_nothing_but_the_cells_beside_the_line, ()) {
   Field field = any_field(5, 60);
   const double threshold = any_threshold();
-  const BorderLine line{1, field.rows / 2, field.cols - 3, false};
+  const pieces::BorderLine line{1, field.rows / 2, field.cols - 3, false};
   const auto before = chain_of(field, line, threshold);
   for (std::int32_t y = 0; y < field.rows; ++y) {
     for (std::int32_t x = 0; x < field.cols; ++x) {
@@ -124,29 +124,29 @@ RC_GTEST_PROP(border_chain, reads_a_source_as_it_reads_memory, ()) {
   view.samples = nullptr;
   const Source source(field);
   view.source = &source;
-  const BorderLine line{field.cols / 2, 0, field.rows - 1, true};
-  RC_ASSERT(*simplify_border(view, line, 1) == chain_of(field, line, 1));
+  const pieces::BorderLine line{field.cols / 2, 0, field.rows - 1, true};
+  RC_ASSERT(*pieces::simplify_border(view, line, 1) == chain_of(field, line, 1));
 }
 
-std::set<std::pair<std::int32_t, std::int32_t>> vertices_on(const TileMesh& mesh, const TileWindow& window,
-                                                            const BorderLine& line) {
+std::set<std::pair<std::int32_t, std::int32_t>> vertices_on(const tin::TileMesh& mesh, const refine::TileWindow& window,
+                                                            const pieces::BorderLine& line) {
   std::set<std::pair<std::int32_t, std::int32_t>> found;
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
-    for (const TilePoint p : mesh[t].corners) {
-      const std::int32_t x = window.col + tile_x(p), y = window.row + tile_y(p);
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+    for (const geom::TilePoint p : mesh[t].corners) {
+      const std::int32_t x = window.col + geom::tile_x(p), y = window.row + geom::tile_y(p);
       if (line.is_vertical ? x == line.col : y == line.row) found.insert({x, y});
     }
   }
   return found;
 }
 
-std::vector<TilePoint> border_of(const Field& field, const TileWindow& window, const SharedSides& shared,
-                                 double threshold) {
-  std::vector<TilePoint> border;
-  for (const BorderLine& line : shared_lines(window, shared)) {
+std::vector<geom::TilePoint> border_of(const Field& field, const refine::TileWindow& window,
+                                       const refine::SharedSides& shared, double threshold) {
+  std::vector<geom::TilePoint> border;
+  for (const pieces::BorderLine& line : pieces::shared_lines(window, shared)) {
     for (const std::int32_t step : chain_of(field, line, threshold))
-      border.push_back(tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
-                                  line.row - window.row + (line.is_vertical ? step : 0)));
+      border.push_back(geom::tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
+                                        line.row - window.row + (line.is_vertical ? step : 0)));
   }
   return border;
 }
@@ -156,16 +156,16 @@ RC_GTEST_PROP(border_chain, both_tiles_start_with_the_chain_and_the_corners_on_a
   const Field field = any_field(4, 50);
   const double threshold = any_threshold();
   const std::int32_t cut = *rc::gen::inRange(1, field.cols - 1);
-  const TileWindow left{0, 0, cut + 1, field.rows}, right{cut, 0, field.cols - cut, field.rows};
-  const BorderLine line{cut, 0, field.rows - 1, true};
+  const refine::TileWindow left{0, 0, cut + 1, field.rows}, right{cut, 0, field.cols - cut, field.rows};
+  const pieces::BorderLine line{cut, 0, field.rows - 1, true};
   std::set<std::pair<std::int32_t, std::int32_t>> expected{{cut, 0}, {cut, field.rows - 1}};
   for (const std::int32_t step : chain_of(field, line, threshold)) expected.insert({cut, step});
-  for (const auto& [window, shared] :
-       {std::pair{left, SharedSides{false, false, true, false}}, {right, SharedSides{true, false, false, false}}}) {
-    Tile tile;
+  for (const auto& [window, shared] : {std::pair{left, refine::SharedSides{false, false, true, false}},
+                                       {right, refine::SharedSides{true, false, false, false}}}) {
+    refine::Tile tile;
     RC_ASSERT(tile.load(field.view(), window).has_value());
-    TileMesh mesh;
-    RC_ASSERT(start_tile(tile, border_of(field, window, shared, threshold), mesh).has_value());
+    tin::TileMesh mesh;
+    RC_ASSERT(refine::start_tile(tile, border_of(field, window, shared, threshold), mesh).has_value());
     const std::string broken = testing::verify_tile_mesh(mesh, window.cols, window.rows);
     RC_ASSERT(broken == "");
     RC_ASSERT(vertices_on(mesh, window, line) == expected);
@@ -174,7 +174,7 @@ RC_GTEST_PROP(border_chain, both_tiles_start_with_the_chain_and_the_corners_on_a
 
 TEST(border_chain, a_straight_line_keeps_nothing_and_a_peak_itself) {
   Field field{9, 3, std::vector<float>(27, 5)};
-  const BorderLine line{0, 1, 8, false};
+  const pieces::BorderLine line{0, 1, 8, false};
   EXPECT_TRUE(chain_of(field, line, 0).empty());
   field.samples[9 + 3] = 6;
   EXPECT_EQ(chain_of(field, line, 0.5), (std::vector<std::int32_t>{2, 3, 4}));
@@ -190,10 +190,10 @@ TEST(border_chain, nodata_beside_the_line_keeps_where_its_cells_begin_and_end) {
 TEST(tiling, tiles_cover_the_raster_and_share_their_sides) {
   for (const auto& [cols, rows] : {std::pair{2, 2}, {3, 900}, {65, 64}, {1000, 777}, {50000, 2}}) {
     for (const std::int32_t side : {1, 8, 16, 31, 64, 512, 2048}) {
-      const Tiling tiling(cols, rows, side);
+      const pieces::Tiling tiling(cols, rows, side);
       for (std::size_t i = 0; i < tiling.count(); ++i) {
-        const TileWindow window = tiling.window(i);
-        const SharedSides shared = tiling.shared(i);
+        const refine::TileWindow window = tiling.window(i);
+        const refine::SharedSides shared = tiling.shared(i);
         const std::size_t column = i % tiling.per_row();
         EXPECT_EQ(shared.left, window.col > 0);
         EXPECT_EQ(shared.top, window.row > 0);

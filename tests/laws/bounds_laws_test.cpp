@@ -33,13 +33,13 @@ using testing::Relief;
 std::vector<float> any_bounds(const Field& field) { return testing::any_bounds(field.cols, field.rows); }
 
 /// The greedy mesh; none without a surface.
-std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
-  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+std::optional<tin::Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
-  MetricSettings settings{field.raster(), {{field.samples.data(), 1}}};
+  metric::MetricSettings settings{field.raster(), {{field.samples.data(), 1}}};
   settings.bounds = bounds.data();
-  const SampleMetric metric(settings);
-  Refinement refinement(metric, domain->tin);
+  const metric::SampleMetric metric(settings);
+  refine::Refinement refinement(metric, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
 }
@@ -58,11 +58,11 @@ struct Oracle {
     const auto area = static_cast<double>(orient(places[0], places[1], places[2]));
     const auto [left, right] = std::minmax({places[0].x, places[1].x, places[2].x});
     const auto [top, bottom] = std::minmax({places[0].y, places[1].y, places[2].y});
-    for (Point p{0, top / kLatticeSteps}; p.y * kLatticeSteps <= bottom; ++p.y) {
-      for (p.x = left / kLatticeSteps; p.x * kLatticeSteps <= right; ++p.x) {
+    for (Point p{0, top / grid::kLatticeSteps}; p.y * grid::kLatticeSteps <= bottom; ++p.y) {
+      for (p.x = left / grid::kLatticeSteps; p.x * grid::kLatticeSteps <= right; ++p.x) {
         const double bound = bound_at(field, bounds, p);
         bool inside = field.raster().is_valid(p) && !std::isinf(bound);
-        const Point at{p.x * kLatticeSteps, p.y * kLatticeSteps};
+        const Point at{p.x * grid::kLatticeSteps, p.y * grid::kLatticeSteps};
         double height = 0, share = 0;
         for (std::size_t k = 0; k < 3; ++k) {
           const std::int64_t weight = orient(places[(k + 1) % 3], places[(k + 2) % 3], at);
@@ -71,7 +71,7 @@ struct Oracle {
           if (k == 0) share = static_cast<double>(weight) / area / bound;
         }
         if (!inside) continue;
-        keeps = keeps && !exceeds_exactly(places, heights, at, field.raster().at(p), bound);
+        keeps = keeps && !geom::exceeds_exactly(places, heights, at, field.raster().at(p), bound);
         if (bound < least) continue;
         const double error = (height - double{field.raster().at(p)}) / bound;
         energy += std::pow(error, 8);
@@ -83,9 +83,9 @@ struct Oracle {
   }
 };
 
-bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const Fitted& fitted) {
-  const std::int32_t scale = kLatticeSteps / fitted.lattice.steps;
-  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const fit::Fitted& fitted) {
+  const std::int32_t scale = grid::kLatticeSteps / fitted.lattice.steps;
+  for (tin::Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
     if (fitted.tin.is_outside(t)) continue;
     std::array<Point, 3> places = fitted.tin.corners(t);
     std::array<float, 3> heights;
@@ -102,8 +102,8 @@ bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const Fi
 RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
   const Field field = any_field();
   const std::vector<float> bounds = any_bounds(field);
-  const std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
-  RC_PRE(area2(corners[0], corners[1], corners[2]) > 0);
+  const std::array<fit::FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(fit::area2(corners[0], corners[1], corners[2]) > 0);
   std::array<Point, 3> places;
   std::array<float, 3> heights;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -111,20 +111,21 @@ RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
     heights[k] = corners[k].z;
   }
   const Oracle oracle(field, bounds, places, heights);
-  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), 0.25},
-                            {1, *rc::gen::element(ErrorRule::Power::kTwo, ErrorRule::Power::kEight)});
+  const fit::TriangleError error(field.raster(), {0, 0}, fit::SampleBounds{bounds.data(), 0.25},
+                                 {1, *rc::gen::element(fit::ErrorRule::Power::kTwo, fit::ErrorRule::Power::kEight)});
   const auto verdict = error.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
-  RC_ASSERT((verdict.kind == TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
+  RC_ASSERT((verdict.kind == fit::TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
   if (oracle.keeps) {
     RC_ASSERT(verdict.worst <= 1);
   } else {
-    RC_ASSERT(exceeds_exactly(places, heights, {verdict.witness.x * kLatticeSteps, verdict.witness.y * kLatticeSteps},
-                              field.raster().at(verdict.witness), double{bound_at(field, bounds, verdict.witness)}));
+    RC_ASSERT(geom::exceeds_exactly(
+        places, heights, {verdict.witness.x * grid::kLatticeSteps, verdict.witness.y * grid::kLatticeSteps},
+        field.raster().at(verdict.witness), double{bound_at(field, bounds, verdict.witness)}));
   }
   const double slack = 2.5;
-  const TriangleError loose = error.with({slack, ErrorRule::Power::kEight});
+  const fit::TriangleError loose = error.with({slack, fit::ErrorRule::Power::kEight});
   const auto passed = loose.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
-  if (passed.kind == TriangleError::Verdict::Kind::kKeeps) {
+  if (passed.kind == fit::TriangleError::Verdict::Kind::kKeeps) {
     RC_ASSERT((passed.worst <= 1) == oracle.keeps);
   } else {
     RC_ASSERT(!oracle.keeps);
@@ -135,19 +136,20 @@ RC_GTEST_PROP(bounds, pull_as_the_samples_do, ()) {
   const Field field = any_field();
   std::vector<float> bounds = any_bounds(field);
   for (float& bound : bounds) bound = std::max(bound, 0.5f);
-  const std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
-  RC_PRE(area2(corners[0], corners[1], corners[2]) > 0);
+  const std::array<fit::FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(fit::area2(corners[0], corners[1], corners[2]) > 0);
   const Oracle oracle(field, bounds,
                       {Point{corners[0].x, corners[0].y}, {corners[1].x, corners[1].y}, {corners[2].x, corners[2].y}},
                       {corners[0].z, corners[1].z, corners[2].z});
   RC_PRE(oracle.worst < 10);
   const double unit = 4;
-  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), unit}, {1, ErrorRule::Power::kEight});
+  const fit::TriangleError error(field.raster(), {0, 0}, fit::SampleBounds{bounds.data(), unit},
+                                 {1, fit::ErrorRule::Power::kEight});
   const auto pull = error.pull(corners[0], corners[1], corners[2]);
   const double stiffness = oracle.stiffness * unit * unit, push = oracle.push * unit;
   RC_ASSERT(std::abs(pull.stiffness - stiffness) <= 1e-2 * (1 + stiffness));
   RC_ASSERT(std::abs(pull.push - push) <= 1e-2 * (1 + unit * 2 * oracle.energy));
-  TriangleError::Moments moments{};
+  fit::TriangleError::Moments moments{};
   error.add_moments(corners[0], corners[1], corners[2], moments);
   RC_ASSERT(std::abs(moments[0] - oracle.energy) <= 1e-2 * (1 + oracle.energy));
   RC_ASSERT(std::abs(moments[2] - stiffness) <= 1e-2 * (1 + stiffness));
@@ -157,20 +159,20 @@ RC_GTEST_PROP(bounds, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   const Field field = any_field();
   const std::vector<float> bounds = any_bounds(field);
   RC_PRE(refined(field, bounds).has_value());
-  FitOptions options{.bounds = bounds,
-                     .threads = 1,
-                     .depth = any_depth(0),
-                     .min_shape = *rc::gen::element(0.0, 0.1),
-                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
-                     .patch_side = *rc::gen::element(0, 5, 16, 40)};
-  const auto first = *fit(field.raster(), *refined(field, bounds), options);
+  fit::FitOptions options{.bounds = bounds,
+                          .threads = 1,
+                          .depth = any_depth(0),
+                          .min_shape = *rc::gen::element(0.0, 0.1),
+                          .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                          .patch_side = *rc::gen::element(0, 5, 16, 40)};
+  const auto first = *fit::fit(field.raster(), *refined(field, bounds), options);
   RC_ASSERT(keeps_bounds(field, bounds, first));
   const std::int32_t steps = first.lattice.steps;
   const std::string unsound = testing::verify_triangulation(first.tin, (field.cols - 1) * steps + 1,
                                                             (field.rows - 1) * steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   options.threads = 3;
-  const auto again = *fit(field.raster(), *refined(field, bounds), options);
+  const auto again = *fit::fit(field.raster(), *refined(field, bounds), options);
   RC_ASSERT(is_same(again.tin, first.tin));
 }
 
@@ -178,15 +180,15 @@ RC_GTEST_PROP(bounds, that_are_all_the_same_are_a_threshold, ()) {
   const Field field = any_field();
   const double threshold = testing::any_threshold();
   RC_PRE(testing::refined(field, threshold).has_value());
-  FitOptions options{.threshold = double{static_cast<float>(threshold)},
-                     .depth = any_depth(0),
-                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
-                     .patch_side = *rc::gen::element(0, 16)};
+  fit::FitOptions options{.threshold = double{static_cast<float>(threshold)},
+                          .depth = any_depth(0),
+                          .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                          .patch_side = *rc::gen::element(0, 16)};
   auto tin = testing::refined(field, options.threshold);
-  const auto plain = *fit(field.raster(), std::move(*tin), options);
+  const auto plain = *fit::fit(field.raster(), std::move(*tin), options);
   const std::vector<float> bounds(field.samples.size(), static_cast<float>(threshold));
   options.bounds = bounds;
-  const auto bounded = *fit(field.raster(), *testing::refined(field, options.threshold), options);
+  const auto bounded = *fit::fit(field.raster(), *testing::refined(field, options.threshold), options);
   RC_ASSERT(is_same(bounded.tin, plain.tin));
 }
 
@@ -195,13 +197,13 @@ TEST(bounds, that_are_all_but_one_the_same_take_as_many_triangles_as_a_threshold
   std::vector<float> bounds(field.samples.size(), 4.0f);
   bounds[0] = 8;  // a corner, which is always a vertex
   for (const bool free : {false, true}) {
-    const std::vector<FitDepth> depths =
-        testing::kIsSanitized ? std::vector{FitDepth{}} : std::vector{FitDepth{}, kHighDepth};
-    for (const FitDepth& depth : depths) {
-      FitOptions options{.threshold = 4, .depth = depth, .vertices_are_free = free};
-      const auto plain = *fit(field.raster(), *testing::refined(field, 4), options);
+    const std::vector<fit::FitDepth> depths =
+        testing::kIsSanitized ? std::vector{fit::FitDepth{}} : std::vector{fit::FitDepth{}, fit::kHighDepth};
+    for (const fit::FitDepth& depth : depths) {
+      fit::FitOptions options{.threshold = 4, .depth = depth, .vertices_are_free = free};
+      const auto plain = *fit::fit(field.raster(), *testing::refined(field, 4), options);
       options.bounds = bounds;
-      const auto bounded = *fit(field.raster(), *testing::refined(field, 4), options);
+      const auto bounded = *fit::fit(field.raster(), *testing::refined(field, 4), options);
       const auto count = static_cast<double>(plain.tin.triangle_count());
       EXPECT_NEAR(static_cast<double>(bounded.tin.triangle_count()), count, 0.01 * count);
     }

@@ -25,12 +25,12 @@ struct Scene {
   std::vector<Line> lines;
 
   double plane(double col, double row) const { return base + east * col + south * row; }
-  Raster raster() const { return {samples.data(), cols, rows}; }
+  grid::Raster raster() const { return {samples.data(), cols, rows}; }
   std::array<double, 2> map(double col, double row) const {
     return {affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row};
   }
-  Result<Breaklines> place(LineConflict conflict = LineConflict::kError) const {
-    return place_breaklines(lines, affine, raster(), trace_outline(raster()), conflict);
+  Result<lines::Breaklines> place(LineConflict conflict = LineConflict::kError) const {
+    return lines::place_breaklines(lines, affine, raster(), grid::trace_outline(raster()), conflict);
   }
 };
 
@@ -80,7 +80,7 @@ class Stage {
 };
 
 double plane_at(const Scene& scene, Point p) {
-  return scene.plane(p.x / double{kLatticeSteps}, p.y / double{kLatticeSteps});
+  return scene.plane(p.x / double{grid::kLatticeSteps}, p.y / double{grid::kLatticeSteps});
 }
 
 RC_GTEST_PROP(breaklines, hard_lines_of_a_plane_meet_in_peace_and_stay_on_it, ()) {
@@ -89,7 +89,7 @@ RC_GTEST_PROP(breaklines, hard_lines_of_a_plane_meet_in_peace_and_stay_on_it, ()
   stage.add_lines(scene, true, 100);
   const auto placed = scene.place();
   RC_ASSERT(placed.has_value());
-  const double climb = (std::abs(scene.east) + std::abs(scene.south)) / kLatticeSteps;
+  const double climb = (std::abs(scene.east) + std::abs(scene.south)) / grid::kLatticeSteps;
   for (std::size_t k = 0; k < placed->points.size(); ++k) {
     const double lift = placed->is_hard[k] ? 100 : 0;
     RC_ASSERT(std::abs(placed->heights[k] - lift - plane_at(scene, placed->points[k])) <= 3 * climb + 1e-3);
@@ -119,9 +119,9 @@ RC_GTEST_PROP(breaklines, every_vertex_in_the_raster_is_a_point_within_half_a_st
   RC_ASSERT(placed.has_value());
   for (const Line& line : scene.lines) {
     for (const auto& [x, y, z] : line.points) {
-      const double col = x * kLatticeSteps, row = y * kLatticeSteps;
-      if (col < 1 || row < 1 || col > (scene.cols - 1) * kLatticeSteps - 1 ||
-          row > (scene.rows - 1) * kLatticeSteps - 1)
+      const double col = x * grid::kLatticeSteps, row = y * grid::kLatticeSteps;
+      if (col < 1 || row < 1 || col > (scene.cols - 1) * grid::kLatticeSteps - 1 ||
+          row > (scene.rows - 1) * grid::kLatticeSteps - 1)
         continue;
       RC_ASSERT(std::any_of(placed->points.begin(), placed->points.end(), [col = col, row = row](Point p) {
         return std::abs(p.x - col) <= 0.5 && std::abs(p.y - row) <= 0.5;
@@ -138,12 +138,13 @@ RC_GTEST_PROP(breaklines, no_nodata_leaks_into_the_surface, ()) {
   stage.add_lines(scene, false, 0);
   const auto placed = scene.place();
   RC_ASSERT(placed.has_value());
-  const Raster raster = scene.raster();
+  const grid::Raster raster = scene.raster();
   for (std::size_t k = 0; k < placed->points.size(); ++k) {
     const Point p = placed->points[k];
-    const Point cell{std::min(p.x / kLatticeSteps, scene.cols - 2), std::min(p.y / kLatticeSteps, scene.rows - 2)};
-    const bool on_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
-    if (std::popcount(valid_corners(raster, cell.x, cell.y)) < 3 || on_sample) continue;
+    const Point cell{std::min(p.x / grid::kLatticeSteps, scene.cols - 2),
+                     std::min(p.y / grid::kLatticeSteps, scene.rows - 2)};
+    const bool on_sample = p.x % grid::kLatticeSteps == 0 && p.y % grid::kLatticeSteps == 0;
+    if (std::popcount(grid::valid_corners(raster, cell.x, cell.y)) < 3 || on_sample) continue;
     RC_ASSERT(std::abs(placed->heights[k] - plane_at(scene, p)) <= 1e-3);
   }
 }
@@ -159,8 +160,9 @@ Scene flat(int size, std::vector<std::vector<std::array<double, 3>>> lines) {
 }
 
 /// The height at a place; fails the test if there is no vertex.
-float height_at(const Breaklines& placed, double col, double row) {
-  const Point p{static_cast<std::int32_t>(col * kLatticeSteps), static_cast<std::int32_t>(row * kLatticeSteps)};
+float height_at(const lines::Breaklines& placed, double col, double row) {
+  const Point p{static_cast<std::int32_t>(col * grid::kLatticeSteps),
+                static_cast<std::int32_t>(row * grid::kLatticeSteps)};
   const auto found = std::find(placed.points.begin(), placed.points.end(), p);
   if (found == placed.points.end()) {
     ADD_FAILURE() << "no vertex at " << col << ", " << row;

@@ -198,7 +198,7 @@ struct MadeUp {
   double least = 0;  // bounds below it cannot be kept
   int runs = 0;      // with effort
 
-  Result<Simplified> operator()(const SimplifyOptions& options, const Scale& scale) {
+  Result<Simplified> operator()(const SimplifyOptions& options, const pieces::Scale& scale) {
     const bool has_effort = !scale.refines_only;
     runs += has_effort ? 1 : 0;
     double error = options.goals.max_error.value_or(0);
@@ -221,7 +221,8 @@ TEST(budget_search, takes_few_runs_where_triangles_follow_a_power) {
     for (const double share : {0.25, 0.42, 0.7}) {
       MadeUp made_up{[&](double error) { return 1e6 * std::pow(error, -power); }, share};
       const SimplifyOptions options{.goals = {.max_triangles = 50000}};
-      const auto found = *search_budget(options, {.run = std::ref(made_up), .traits = traits_of(Effort::kHigh)});
+      const auto found =
+          *run::search_budget(options, {.run = std::ref(made_up), .traits = pieces::traits_of(Effort::kHigh)});
       EXPECT_GE(found.mesh.triangle_count(), 49500u) << power << " " << share;
       EXPECT_LE(found.mesh.triangle_count(), 50000u) << power << " " << share;
       EXPECT_LE(made_up.runs, 4) << power << " " << share;
@@ -233,18 +234,20 @@ TEST(budget_search, stops_where_triangles_jump_over_the_budget) {
   // 10,000 triangles for an error of 1 or more, far too many below.
   MadeUp made_up{[](double error) { return error >= 1 ? 20000 + 30000 / error : 1e6; }};
   const SimplifyOptions options{.goals = {.max_triangles = 50000}};
-  const auto found = *search_budget(options, {.run = std::ref(made_up), .traits = traits_of(Effort::kHigh)});
+  const auto found =
+      *run::search_budget(options, {.run = std::ref(made_up), .traits = pieces::traits_of(Effort::kHigh)});
   EXPECT_LE(found.judged_max_error, 1.05);
-  EXPECT_LE(made_up.runs, kMostRuns);
+  EXPECT_LE(made_up.runs, run::kMostRuns);
 }
 
 TEST(budget_search, goes_around_bounds_that_cannot_be_kept) {
   MadeUp made_up{[](double error) { return 1e5 / error; }, 0.42, 0.9};
   const SimplifyOptions options{.goals = {.max_triangles = 100000}};
-  const auto found = *search_budget(options, {.run = std::ref(made_up), .traits = traits_of(Effort::kHigh)});
+  const auto found =
+      *run::search_budget(options, {.run = std::ref(made_up), .traits = pieces::traits_of(Effort::kHigh)});
   EXPECT_LE(found.judged_max_error, 0.95);
   EXPECT_GE(found.judged_max_error, 0.9);
-  EXPECT_LE(made_up.runs, kMostRuns);
+  EXPECT_LE(made_up.runs, run::kMostRuns);
 }
 
 }  // namespace

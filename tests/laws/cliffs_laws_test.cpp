@@ -74,16 +74,16 @@ bool meet(const Piece& p, const Piece& q) {
          (d == 0 && within(q, p.b));
 }
 
-std::vector<Piece> pieces_of(const std::vector<WallVertex>& line) {
+std::vector<Piece> pieces_of(const std::vector<features::WallVertex>& line) {
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k + 1 < line.size(); ++k) pieces.push_back({line[k].at, line[k + 1].at});
   return pieces;
 }
 
-Point lattice_place(Point sample) { return {sample.x * kLatticeSteps, sample.y * kLatticeSteps}; }
+Point lattice_place(Point sample) { return {sample.x * grid::kLatticeSteps, sample.y * grid::kLatticeSteps}; }
 
 /// Checks that every step between neighbours across the line is a crack, with the high sample on the line's left.
-void check_sides(const Raster& raster, double height, const std::vector<Piece>& line) {
+void check_sides(const grid::Raster& raster, double height, const std::vector<Piece>& line) {
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {
       for (const Point to : {Point{x + 1, y}, Point{x, y + 1}}) {
@@ -101,14 +101,14 @@ void check_sides(const Raster& raster, double height, const std::vector<Piece>& 
   }
 }
 
-std::vector<CrackChain> chains_of(const Raster& raster, double height) {
-  CrackChains cracks(raster.cols, raster.rows, height, [](Point) { return false; });
+std::vector<features::CrackChain> chains_of(const grid::Raster& raster, double height) {
+  features::CrackChains cracks(raster.cols, raster.rows, height, [](Point) { return false; });
   for (std::int32_t row = 0; row < raster.rows; ++row)
     cracks.add_row(row, row > 0 ? raster.row(row - 1) : nullptr, raster.row(row),
                    row + 1 < raster.rows ? raster.row(row + 1) : nullptr);
   cracks.link();
-  std::vector<CrackChain> chains;
-  cracks.visit([&](const CrackChain& chain) { chains.push_back(chain); });
+  std::vector<features::CrackChain> chains;
+  cracks.visit([&](const features::CrackChain& chain) { chains.push_back(chain); });
   return chains;
 }
 
@@ -116,11 +116,11 @@ RC_GTEST_PROP(CliffLaws, LinesRunBetweenHighAndLowSamplesAndDoNotMeet, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field =
       seed % 4 == 1 ? testing::random_field(seed, 12, 9, testing::kReliefs[seed / 4 % 5], 0.05) : random_city(seed);
-  const Raster raster = field.raster();
+  const grid::Raster raster = field.raster();
   const double height = seed % 4 == 1 ? 1.5 : 4;
   std::vector<Piece> others;
-  for (const CrackChain& chain : chains_of(raster, height)) {
-    for (const Wall& wall : find_walls(chain, 1)) {
+  for (const features::CrackChain& chain : chains_of(raster, height)) {
+    for (const features::Wall& wall : features::find_walls(chain, 1)) {
       RC_ASSERT(wall.top.size() == wall.foot.size());
       RC_ASSERT(wall.top.size() >= 2u);
       std::vector<Piece> top = pieces_of(wall.top), foot = pieces_of(wall.foot);
@@ -147,7 +147,7 @@ RC_GTEST_PROP(CliffLaws, LinesRunBetweenHighAndLowSamplesAndDoNotMeet, ()) {
 RC_GTEST_PROP(CliffLaws, ChainsHoldEachCrackOnce, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field = random_city(seed);
-  const Raster raster = field.raster();
+  const grid::Raster raster = field.raster();
   std::size_t steps = 0, cracks = 0;
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {
@@ -157,9 +157,10 @@ RC_GTEST_PROP(CliffLaws, ChainsHoldEachCrackOnce, ()) {
       }
     }
   }
-  for (const CrackChain& chain : chains_of(raster, 4)) {
+  for (const features::CrackChain& chain : chains_of(raster, 4)) {
     cracks += chain.cracks.size();
-    for (const Crack& crack : chain.cracks) RC_ASSERT(double{raster.at(crack.high)} - double{raster.at(crack.low)} > 4);
+    for (const features::Crack& crack : chain.cracks)
+      RC_ASSERT(double{raster.at(crack.high)} - double{raster.at(crack.low)} > 4);
   }
   RC_ASSERT(cracks == steps);
 }

@@ -61,8 +61,8 @@ double any_length(const PointSet& points) {
   return all * std::pow(10.0, -0.1 * *rc::gen::inRange(0, 25));
 }
 
-std::optional<ScatteredDomain> hull_of(const SnappedPoints& points) {
-  auto hull = build_domain(points);
+std::optional<refine::ScatteredDomain> hull_of(const grid::SnappedPoints& points) {
+  auto hull = refine::build_domain(points);
   return hull ? std::optional(std::move(*hull)) : std::nullopt;
 }
 
@@ -77,7 +77,7 @@ int side(Point a, Point b, Point p) {
 }
 
 /// True if edges meet only in common corners.
-bool is_simple(const SnappedPoints& points, const Ring& ring) {
+bool is_simple(const grid::SnappedPoints& points, const Ring& ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Point a = points.at[ring[i]], b = points.at[ring[(i + 1) % n]];
@@ -91,7 +91,7 @@ bool is_simple(const SnappedPoints& points, const Ring& ring) {
 }
 
 /// True if p is in the polygon or on its edges, by a ray to the east.
-bool holds(const SnappedPoints& points, const Ring& ring, Point p) {
+bool holds(const grid::SnappedPoints& points, const Ring& ring, Point p) {
   bool is_in = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point a = points.at[ring[i]], b = points.at[ring[(i + 1) % ring.size()]];
@@ -101,7 +101,7 @@ bool holds(const SnappedPoints& points, const Ring& ring, Point p) {
   return is_in;
 }
 
-double area_of(const SnappedPoints& points, const Ring& ring) {
+double area_of(const grid::SnappedPoints& points, const Ring& ring) {
   long double twice = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point a = points.at[ring[i]], b = points.at[ring[(i + 1) % ring.size()]];
@@ -111,7 +111,7 @@ double area_of(const SnappedPoints& points, const Ring& ring) {
 }
 
 /// Triangles of all triples whose circle contains no point; none if four points lie on one circle.
-std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints& points) {
+std::optional<std::vector<Corners>> delaunay_by_brute_force(const grid::SnappedPoints& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   std::vector<Corners> triangles;
   for (std::uint32_t a = 0; a < count; ++a) {
@@ -124,7 +124,7 @@ std::optional<std::vector<Corners>> delaunay_by_brute_force(const SnappedPoints&
         for (std::uint32_t p = 0; p < count && is_empty; ++p) {
           if (p == a || p == b || p == c) continue;
           const int where =
-              in_circle(points.at[corners[0]], points.at[corners[1]], points.at[corners[2]], points.at[p]);
+              geom::in_circle(points.at[corners[0]], points.at[corners[1]], points.at[corners[2]], points.at[p]);
           if (where == 0) return std::nullopt;
           is_empty = where < 0;
         }
@@ -158,8 +158,8 @@ std::optional<std::map<std::uint32_t, std::uint32_t>> boundary_of(const std::vec
 }
 
 /// The chi-shape by definition: removes the triangle at the longest removable edge, then examines everything again.
-std::map<std::uint32_t, std::uint32_t> chi_by_brute_force(const SnappedPoints& points, std::vector<Corners> triangles,
-                                                          double longest) {
+std::map<std::uint32_t, std::uint32_t> chi_by_brute_force(const grid::SnappedPoints& points,
+                                                          std::vector<Corners> triangles, double longest) {
   for (;;) {
     const auto next = *boundary_of(triangles, points.size());
     double most = longest;
@@ -186,14 +186,14 @@ std::map<std::uint32_t, std::uint32_t> chi_by_brute_force(const SnappedPoints& p
 RC_GTEST_PROP(concave, outline_is_that_of_the_definition, ()) {
   const PointSet given = testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(3, 22),
                                                 *rc::gen::element(Scatter::kUtm, Scatter::kFloats), Heights::kReal);
-  const auto points = *snap_points(given, DuplicatePolicy::kFirst);
+  const auto points = *grid::snap_points(given, DuplicatePolicy::kFirst);
   const auto triangles = delaunay_by_brute_force(points);
   RC_PRE(triangles.has_value());
   auto domain = hull_of(points);
   const double longest = any_length(given) / points.lattice.step;
-  add_points(points, 1, *domain);
-  take_away_long(*domain, longest);
-  const Ring ring = outline_of(*domain);
+  refine::add_points(points, 1, *domain);
+  refine::take_away_long(*domain, longest);
+  const Ring ring = refine::outline_of(*domain);
   const auto next = chi_by_brute_force(points, *triangles, longest);
   RC_ASSERT(ring.size() == next.size());
   for (std::size_t i = 0; i < ring.size(); ++i) RC_ASSERT(next.at(ring[i]) == ring[(i + 1) % ring.size()]);
@@ -201,13 +201,13 @@ RC_GTEST_PROP(concave, outline_is_that_of_the_definition, ()) {
 
 RC_GTEST_PROP(concave, outline_is_simple_holds_all_points_and_has_only_long_edges_that_must_stay, ()) {
   const PointSet given = any_points(120);
-  const auto points = *snap_points(given, DuplicatePolicy::kFirst);
+  const auto points = *grid::snap_points(given, DuplicatePolicy::kFirst);
   auto domain = hull_of(points);
   RC_PRE(domain.has_value());
   const double longest = any_length(given) / points.lattice.step;
-  add_points(points, 1, *domain);
-  take_away_long(*domain, longest);
-  const Ring ring = outline_of(*domain);
+  refine::add_points(points, 1, *domain);
+  refine::take_away_long(*domain, longest);
+  const Ring ring = refine::outline_of(*domain);
   RC_ASSERT(is_simple(points, ring));
   RC_ASSERT(area_of(points, ring) > 0);
   for (const Point p : points.at) RC_ASSERT(holds(points, ring, p));
@@ -217,19 +217,19 @@ RC_GTEST_PROP(concave, outline_is_simple_holds_all_points_and_has_only_long_edge
     }
     return false;
   };
-  const Triangulation& tin = domain->tin;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const HalfEdge g = tin.twin(h);
-    if (tin.is_outside(h / 3) || (g != kNone && !tin.is_outside(g / 3))) continue;
-    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(Triangulation::next(h)));
+  const tin::Triangulation& tin = domain->tin;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::HalfEdge g = tin.twin(h);
+    if (tin.is_outside(h / 3) || (g != tin::kNone && !tin.is_outside(g / 3))) continue;
+    const Point a = tin.point(tin.origin(h)), b = tin.point(tin.origin(tin::Triangulation::next(h)));
     if (std::hypot(double(b.x) - a.x, double(b.y) - a.y) > longest * (1 + 1e-9))
-      RC_ASSERT(on_ring(tin.point(tin.origin(Triangulation::previous(h)))));
+      RC_ASSERT(on_ring(tin.point(tin.origin(tin::Triangulation::previous(h)))));
   }
 }
 
 RC_GTEST_PROP(concave, hull_of_a_length_beyond_all_edges_is_the_convex_one, ()) {
   const PointSet points = any_points(120);
-  RC_PRE(hull_of(*snap_points(points, DuplicatePolicy::kFirst)).has_value());
+  RC_PRE(hull_of(*grid::snap_points(points, DuplicatePolicy::kFirst)).has_value());
   PointOptions options{.max_error = *rc::gen::element(0.0, 1.0, 10.0), .float32_positions = false};
   const auto convex = simplify_points(points, options);
   options.boundary_length = 1e9;
@@ -253,7 +253,7 @@ RC_GTEST_PROP(concave, meshes_keep_the_promise_at_every_point_and_end_at_the_out
   const bool is_bay = *rc::gen::arbitrary<bool>();
   const PointSet points =
       is_bay ? around_a_bay(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(50, 200)) : any_points(120);
-  const auto snapped = *snap_points(points, DuplicatePolicy::kFirst);
+  const auto snapped = *grid::snap_points(points, DuplicatePolicy::kFirst);
   auto hull = hull_of(snapped);
   RC_PRE(hull.has_value() && snapped.duplicates == 0);
   const double goal = *rc::gen::element(0.0, 0.5, 3.0, 20.0), length = any_length(points);
@@ -272,7 +272,7 @@ RC_GTEST_PROP(concave, meshes_keep_the_promise_at_every_point_and_end_at_the_out
   const auto [missed, worst] = testing::judge_by_brute_force(points, mesh);
   RC_ASSERT(missed == 0);
   RC_ASSERT(std::abs(worst - m.max_error) < 1e-5);
-  const auto domain = build_concave_domain(snapped, std::move(*hull), length);
+  const auto domain = refine::build_concave_domain(snapped, std::move(*hull), length);
   if (!domain) RC_FAIL(domain.error().message);
   RC_ASSERT(result->on_hull == domain->outlines.front().size());
   const double expected = area_of(snapped, domain->outlines.front());
@@ -283,7 +283,7 @@ RC_GTEST_PROP(concave, meshes_of_float32_keep_the_promise_or_say_that_they_canno
   const PointSet points = *rc::gen::arbitrary<bool>()
                               ? around_a_bay(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(50, 200))
                               : any_points(120);
-  RC_PRE(hull_of(*snap_points(points, DuplicatePolicy::kFirst)).has_value());
+  RC_PRE(hull_of(*grid::snap_points(points, DuplicatePolicy::kFirst)).has_value());
   const double goal = *rc::gen::element(0.0, 0.5, 3.0, 20.0);
   const auto result = simplify_points(points, {.max_error = goal, .boundary_length = any_length(points)});
   if (!result) {
@@ -321,7 +321,9 @@ PointSet on_hills(int count, const Place& place) {
   return points;
 }
 
-HullFit fit_of(const PointSet& points) { return find_hull_fit(*snap_points(points, DuplicatePolicy::kFirst)); }
+HullFit fit_of(const PointSet& points) {
+  return refine::find_hull_fit(*grid::snap_points(points, DuplicatePolicy::kFirst));
+}
 
 class Uniform {
  public:
@@ -363,8 +365,8 @@ TEST(concave, hull_is_suggested_for_bays_and_not_in_pieces_for_tracks) {
     EXPECT_GT(fit.bridged, 0.15);
     EXPECT_GT(fit.boundary_length, 40);
     EXPECT_LT(fit.boundary_length, 300);
-    const auto points = *snap_points(bay, DuplicatePolicy::kFirst);
-    const auto domain = build_concave_domain(points, *hull_of(points), fit.boundary_length);
+    const auto points = *grid::snap_points(bay, DuplicatePolicy::kFirst);
+    const auto domain = refine::build_concave_domain(points, *hull_of(points), fit.boundary_length);
     EXPECT_LT(area_of(points, domain->outlines.front()), 0.82 * 1e6);
     EXPECT_GT(area_of(points, domain->outlines.front()), 0.70 * 1e6);
     Uniform any(seed);

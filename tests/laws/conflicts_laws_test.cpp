@@ -64,10 +64,10 @@ struct Scene {
   Strategy strategy;
   Levels levels;
 
-  Fields fields() const {
-    Fields fields = fields_of(field, options);
-    if (!(strategy == Strategy{})) fields.add(Field::kStrategy);
-    if (levels.count > 1) fields.add(Field::kLevels);
+  pieces::Fields fields() const {
+    pieces::Fields fields = pieces::fields_of(field, options);
+    if (!(strategy == Strategy{})) fields.add(pieces::Field::kStrategy);
+    if (levels.count > 1) fields.add(pieces::Field::kLevels);
     return fields;
   }
   /// REQUIRES: no conflict if there is a strategy, since its options cannot express one.
@@ -107,33 +107,33 @@ void add_lines(Scene& scene, std::vector<Line> lines) {
 Line some_line() { return line_through({{2.5, 3.25, NAN}, {20.5, 11.75, NAN}}); }
 
 struct Setting {
-  Field field;
+  pieces::Field field;
   std::function<void(Scene&)> set;
 };
 
 std::vector<Setting> all_settings() {
   constexpr auto kWithout = [](Scene&) {};
   return {
-      {Field::kMaxError, [](Scene& s) { s.options.goals.max_error = kError; }},
-      {Field::kMaxTriangles, [](Scene& s) { s.options.goals.max_triangles = kTriangles; }},
-      {Field::kMaxVertices, [](Scene& s) { s.options.goals.max_vertices = kTriangles / 2; }},
-      {Field::kOutlineTolerance, [](Scene& s) { s.options.domain.outline_tolerance = 1; }},
-      {Field::kBorder, [](Scene& s) { s.options.domain.border.is_locked = true; }},
-      {Field::kDoublePositions, [](Scene& s) { s.options.output.float32_positions = false; }},
-      {Field::kMask, [](Scene& s) { s.options.tolerances.weights = s.mask; }},
-      {Field::kMaskSource, [](Scene& s) { s.options.tolerances.weights_source = &s.weights; }},
-      {Field::kTolerance, [](Scene& s) { s.options.tolerances.values = s.tolerance; }},
-      {Field::kToleranceSource, [](Scene& s) { s.options.tolerances.source = &s.bounds; }},
-      {Field::kBreaklines, [](Scene& s) { add_lines(s, {some_line()}); }},
-      {Field::kWalls,
+      {pieces::Field::kMaxError, [](Scene& s) { s.options.goals.max_error = kError; }},
+      {pieces::Field::kMaxTriangles, [](Scene& s) { s.options.goals.max_triangles = kTriangles; }},
+      {pieces::Field::kMaxVertices, [](Scene& s) { s.options.goals.max_vertices = kTriangles / 2; }},
+      {pieces::Field::kOutlineTolerance, [](Scene& s) { s.options.domain.outline_tolerance = 1; }},
+      {pieces::Field::kBorder, [](Scene& s) { s.options.domain.border.is_locked = true; }},
+      {pieces::Field::kDoublePositions, [](Scene& s) { s.options.output.float32_positions = false; }},
+      {pieces::Field::kMask, [](Scene& s) { s.options.tolerances.weights = s.mask; }},
+      {pieces::Field::kMaskSource, [](Scene& s) { s.options.tolerances.weights_source = &s.weights; }},
+      {pieces::Field::kTolerance, [](Scene& s) { s.options.tolerances.values = s.tolerance; }},
+      {pieces::Field::kToleranceSource, [](Scene& s) { s.options.tolerances.source = &s.bounds; }},
+      {pieces::Field::kBreaklines, [](Scene& s) { add_lines(s, {some_line()}); }},
+      {pieces::Field::kWalls,
        [](Scene& s) {
          add_lines(s, detect_cliffs(s.land.view(), {60, kError})->lines);
        }},
-      {Field::kRidges,
+      {pieces::Field::kRidges,
        [](Scene& s) {
          add_lines(s, {line_through({{4, 20, NAN}, {9, 25, NAN}}, LineKind::kRidge)});
        }},
-      {Field::kCutline,
+      {pieces::Field::kCutline,
        [](Scene& s) {
          Line ring =
              line_through({{1.5, 1.5, NAN}, {37.5, 2.5, NAN}, {36.5, 27.5, NAN}, {2.5, 26.5, NAN}, {1.5, 1.5, NAN}});
@@ -141,52 +141,52 @@ std::vector<Setting> all_settings() {
          ring.role = LineRole::kOuter;
          s.options.features.cutline.rings = {ring};
        }},
-      {Field::kIgnored, [](Scene& s) { s.options.tolerances.ignored = s.ignored; }},
-      {Field::kPoints,
+      {pieces::Field::kIgnored, [](Scene& s) { s.options.tolerances.ignored = s.ignored; }},
+      {pieces::Field::kPoints,
        [](Scene& s) {
          s.options.features.points.push_back({13, 14});
        }},
-      {Field::kOrderGreedy, [](Scene& s) { s.options.quality.order = Order::kGreedy; }},
-      {Field::kOrderDominant, [](Scene& s) { s.options.quality.order = Order::kDominant; }},
-      {Field::kEffortFast, [](Scene& s) { s.options.quality.effort = Effort::kFast; }},
-      {Field::kEffortNormal, [](Scene& s) { s.options.quality.effort = Effort::kNormal; }},
-      {Field::kEffortHigh, [](Scene& s) { s.options.quality.effort = Effort::kHigh; }},
-      {Field::kEffortMax, [](Scene& s) { s.options.quality.effort = Effort::kMax; }},
-      {Field::kVerticesSamples, [](Scene& s) { s.options.quality.vertices = Vertices::kSamples; }},
-      {Field::kVerticesFree,
+      {pieces::Field::kOrderGreedy, [](Scene& s) { s.options.quality.order = Order::kGreedy; }},
+      {pieces::Field::kOrderDominant, [](Scene& s) { s.options.quality.order = Order::kDominant; }},
+      {pieces::Field::kEffortFast, [](Scene& s) { s.options.quality.effort = Effort::kFast; }},
+      {pieces::Field::kEffortNormal, [](Scene& s) { s.options.quality.effort = Effort::kNormal; }},
+      {pieces::Field::kEffortHigh, [](Scene& s) { s.options.quality.effort = Effort::kHigh; }},
+      {pieces::Field::kEffortMax, [](Scene& s) { s.options.quality.effort = Effort::kMax; }},
+      {pieces::Field::kVerticesSamples, [](Scene& s) { s.options.quality.vertices = Vertices::kSamples; }},
+      {pieces::Field::kVerticesFree,
        [](Scene& s) {
          s.options.quality.vertices = Vertices::kFree;
          if (s.options.quality.effort == Effort::kAuto) s.options.quality.effort = Effort::kHigh;
        }},
-      {Field::kMinShape, [](Scene& s) { s.options.quality.min_shape = 0.1; }},
-      {Field::kShape, [](Scene& s) { s.options.quality.shape.min_angle = 15; }},
-      {Field::kTimeLimit, [](Scene& s) { s.options.run.is_time_up = [] { return false; }; }},
-      {Field::kEnough, [](Scene& s) { s.options.run.is_enough = [] { return false; }; }},
-      {Field::kObjectiveRms, [](Scene& s) { s.options.goals.objective = Objective::kRms; }},
-      {Field::kStrategy, [](Scene& s) { s.strategy.edges.data_dependent = true; }},
-      {Field::kLevels,
+      {pieces::Field::kMinShape, [](Scene& s) { s.options.quality.min_shape = 0.1; }},
+      {pieces::Field::kShape, [](Scene& s) { s.options.quality.shape.min_angle = 15; }},
+      {pieces::Field::kTimeLimit, [](Scene& s) { s.options.run.is_time_up = [] { return false; }; }},
+      {pieces::Field::kEnough, [](Scene& s) { s.options.run.is_enough = [] { return false; }; }},
+      {pieces::Field::kObjectiveRms, [](Scene& s) { s.options.goals.objective = Objective::kRms; }},
+      {pieces::Field::kStrategy, [](Scene& s) { s.strategy.edges.data_dependent = true; }},
+      {pieces::Field::kLevels,
        [](Scene& s) {
          s.levels.count = 2;
          s.options.domain.border.is_locked = true;
        }},
-      {Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
-      {Field::kLattice, [](Scene& s) { s.options.output.lattice = true; }},
-      {Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
-      {Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
-      {Field::kThreads, [](Scene& s) { s.options.run.threads = 2; }},
-      {Field::kMemoryLimit, [](Scene& s) { s.options.run.memory.limit = 1'000'000'000; }},
-      {Field::kChannels,
+      {pieces::Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
+      {pieces::Field::kLattice, [](Scene& s) { s.options.output.lattice = true; }},
+      {pieces::Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
+      {pieces::Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
+      {pieces::Field::kThreads, [](Scene& s) { s.options.run.threads = 2; }},
+      {pieces::Field::kMemoryLimit, [](Scene& s) { s.options.run.memory.limit = 1'000'000'000; }},
+      {pieces::Field::kChannels,
        [](Scene& s) {
          s.field.channels = {{s.colours.data(), 0.25}};
        }},
-      {Field::kCurvedFrame,
+      {pieces::Field::kCurvedFrame,
        [](Scene& s) {
          s.field.frame = grid_frame(30);
          s.field.frame.kind = Frame::Kind::kProjected;
          s.field.frame.transform = std::make_shared<Bend>();
        }},
-      {Field::kSpaceFrame, [](Scene& s) { s.field.frame = testing::ball_frame(10, 50, 0.01, 40, 30); }},
-      {Field::kSource, kWithout},
+      {pieces::Field::kSpaceFrame, [](Scene& s) { s.field.frame = testing::ball_frame(10, 50, 0.01, 40, 30); }},
+      {pieces::Field::kSource, kWithout},
   };
 }
 
@@ -243,33 +243,33 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
 }
 
 /// True if one setting implies the other.
-bool brings(Field one, Field other) {
-  return ((one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines) ||
-         (one == Field::kLevels && other == Field::kBorder) ||
-         (one == Field::kSpaceFrame && other == Field::kCurvedFrame);
+bool brings(pieces::Field one, pieces::Field other) {
+  return ((one == pieces::Field::kWalls || one == pieces::Field::kRidges) && other == pieces::Field::kBreaklines) ||
+         (one == pieces::Field::kLevels && other == pieces::Field::kBorder) ||
+         (one == pieces::Field::kSpaceFrame && other == pieces::Field::kCurvedFrame);
 }
 
-bool names(const Conflict& conflict, Field one, Field other) {
-  const auto is = [](Field named, Field setting) { return named == setting || brings(setting, named); };
+bool names(const pieces::Conflict& conflict, pieces::Field one, pieces::Field other) {
+  const auto is = [](pieces::Field named, pieces::Field setting) { return named == setting || brings(setting, named); };
   return (is(conflict.one, one) && is(conflict.other, other)) || (is(conflict.one, other) && is(conflict.other, one));
 }
 
 /// Goals with which two settings may be combined.
-const Field kGoals[] = {Field::kMaxError, Field::kMaxTriangles};
+const pieces::Field kGoals[] = {pieces::Field::kMaxError, pieces::Field::kMaxTriangles};
 
 /// Runs a pair with the first goal that allows it. True if all goals refuse it.
 bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
   bool is_named = false;
-  for (const Field goal : kGoals) {
+  for (const pieces::Field goal : kGoals) {
     Scene scene;
     scene.options.run.threads = 1;
     all_settings()[static_cast<std::size_t>(goal)].set(scene);
     one.set(scene);
     other.set(scene);
-    if (scene.options.goals.objective == Objective::kRms && goal == Field::kMaxError)
+    if (scene.options.goals.objective == Objective::kRms && goal == pieces::Field::kMaxError)
       scene.options.goals.max_triangles = kTriangles;
     if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
-    const auto conflicts = find_conflicts(scene.fields());
+    const auto conflicts = pieces::find_conflicts(scene.fields());
     if (conflicts.empty()) {
       const auto strategies = scene.strategy == Strategy{} ? std::vector<Strategy>(1) : all_strategies();
       for (const Strategy& strategy : strategies) {
@@ -280,13 +280,13 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
       }
       return false;
     }
-    for (const Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
+    for (const pieces::Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
     if (!(scene.strategy == Strategy{})) continue;
     const auto made = scene.run();
     EXPECT_FALSE(made);
     if (made) return false;
     EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
-    EXPECT_EQ(made.error().message, describe(conflicts.front()));
+    EXPECT_EQ(made.error().message, pieces::describe(conflicts.front()));
   }
   EXPECT_TRUE(is_named);
   return true;
@@ -295,15 +295,16 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
 bool is_alone_refused(const Setting& setting) {
   Scene scene;
   setting.set(scene);
-  for (const Conflict& conflict : find_conflicts(scene.fields() | Fields(Field::kSource))) {
-    if (conflict.one == Field::kSource || conflict.other == Field::kSource) return true;
+  for (const pieces::Conflict& conflict :
+       pieces::find_conflicts(scene.fields() | pieces::Fields(pieces::Field::kSource))) {
+    if (conflict.one == pieces::Field::kSource || conflict.other == pieces::Field::kSource) return true;
   }
   return false;
 }
 
 /// The run searches for a factor of all tolerances, or the table explains the refusal.
 void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
-  SCOPED_TRACE(std::string(name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
+  SCOPED_TRACE(std::string(pieces::name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
   Scene scene;
   scene.options.run.threads = 1;
   setting.set(scene);
@@ -312,7 +313,7 @@ void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
   if (is_streamed) scene.options.tolerances.source = &scene.bounds;
   if (!is_streamed) scene.options.tolerances.values = scene.tolerance;
-  const auto conflicts = find_conflicts(scene.fields());
+  const auto conflicts = pieces::find_conflicts(scene.fields());
   if (!(scene.strategy == Strategy{}) && !conflicts.empty()) return;
   const auto made = scene.run();
   EXPECT_EQ(made.has_value(), conflicts.empty()) << (made ? "" : made.error().message);
@@ -329,8 +330,8 @@ TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_th
   const auto settings = all_settings();
   for (std::size_t k = 0; k < settings.size(); k += kSettingStep) {
     const Setting& setting = settings[k];
-    if (setting.field == Field::kMask || setting.field == Field::kTolerance || setting.field == Field::kSource ||
-        setting.field == Field::kToleranceSource)
+    if (setting.field == pieces::Field::kMask || setting.field == pieces::Field::kTolerance ||
+        setting.field == pieces::Field::kSource || setting.field == pieces::Field::kToleranceSource)
       continue;
     expect_within_a_tight_budget(setting, false);
     if (!is_alone_refused(setting)) expect_within_a_tight_budget(setting, true);
@@ -343,10 +344,11 @@ TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
   for (std::size_t k = 0; k < settings.size(); ++k) {
     ASSERT_EQ(static_cast<std::size_t>(settings[k].field), k);
     for (std::size_t n = k + 1 + k % kPairStep; n < settings.size(); n += kPairStep) {
-      const Field one = settings[k].field, other = settings[n].field;
-      const Fields streamed(Field::kMaskSource, Field::kToleranceSource, Field::kSource);
+      const pieces::Field one = settings[k].field, other = settings[n].field;
+      const pieces::Fields streamed(pieces::Field::kMaskSource, pieces::Field::kToleranceSource,
+                                    pieces::Field::kSource);
       if (streamed.has(one) || streamed.has(other)) continue;
-      SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
+      SCOPED_TRACE(std::string(pieces::name_of(one)) + " and " + std::string(pieces::name_of(other)));
       // Two values of one field.
       Scene a, b, both;
       settings[k].set(a), settings[n].set(b), settings[k].set(both), settings[n].set(both);
@@ -354,7 +356,7 @@ TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
       ++pairs;
       if (!is_refused(settings[k], settings[n], false)) continue;
       ++refused;
-      of_strategies += one == Field::kStrategy || other == Field::kStrategy;
+      of_strategies += one == pieces::Field::kStrategy || other == pieces::Field::kStrategy;
     }
   }
   RecordProperty("pairs", pairs);
@@ -368,26 +370,26 @@ TEST(conflicts, every_pair_of_streamed_samples_runs_or_is_refused_by_the_table) 
   const auto settings = all_settings();
   int pairs = 0, refused = 0, alone = 0, more = 0;
   for (std::size_t k = 0; k < settings.size(); ++k) {
-    const Field one = settings[k].field;
-    if (one == Field::kSource) continue;
+    const pieces::Field one = settings[k].field;
+    if (one == pieces::Field::kSource) continue;
     if (is_alone_refused(settings[k])) {
       ++alone;
-      SCOPED_TRACE(std::string(name_of(one)));
-      EXPECT_TRUE(is_refused(settings[k], settings[static_cast<std::size_t>(Field::kSource)], true));
+      SCOPED_TRACE(std::string(pieces::name_of(one)));
+      EXPECT_TRUE(is_refused(settings[k], settings[static_cast<std::size_t>(pieces::Field::kSource)], true));
       continue;
     }
     for (std::size_t n = k + 1 + k % kPairStep; n < settings.size(); n += kPairStep) {
-      const Field other = settings[n].field;
-      if (other == Field::kSource || is_alone_refused(settings[n])) continue;
-      SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
+      const pieces::Field other = settings[n].field;
+      if (other == pieces::Field::kSource || is_alone_refused(settings[n])) continue;
+      SCOPED_TRACE(std::string(pieces::name_of(one)) + " and " + std::string(pieces::name_of(other)));
       Scene both;
       settings[k].set(both), settings[n].set(both);
       if (!both.fields().has(one)) continue;
       ++pairs;
       if (!is_refused(settings[k], settings[n], true)) continue;
       ++refused;
-      const Fields sources(Field::kMaskSource, Field::kToleranceSource);
-      more += find_conflicts(Fields(one, other)).empty() || sources.has(one) || sources.has(other);
+      const pieces::Fields sources(pieces::Field::kMaskSource, pieces::Field::kToleranceSource);
+      more += pieces::find_conflicts(pieces::Fields(one, other)).empty() || sources.has(one) || sources.has(other);
     }
   }
   RecordProperty("pairs", pairs);

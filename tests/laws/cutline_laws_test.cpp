@@ -130,7 +130,8 @@ RC_GTEST_PROP(cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()
   } else {
     RC_ASSERT(result.error().kind == ErrorKind::kInput);
   }
-  RC_ASSERT(area * kLatticeSteps * kLatticeSteps == static_cast<double>(doubled_area(field, options.features.cutline)));
+  RC_ASSERT(area * grid::kLatticeSteps * grid::kLatticeSteps ==
+            static_cast<double>(doubled_area(field, options.features.cutline)));
 }
 
 TEST(cutlines, of_the_whole_raster_change_nothing_but_what_lines_change) {
@@ -206,7 +207,7 @@ TEST(cutlines, along_samples_make_the_others_nodata) {
 RC_GTEST_PROP(polygon_cover, counts_the_polygons_on_both_sides_of_every_edge, ()) {
   Draughtsman draughtsman(*rc::gen::arbitrary<std::uint32_t>());
   const std::int32_t size = *rc::gen::element(8, 64, 4096);
-  Polylines lines;
+  geom::Polylines lines;
   std::vector<std::uint32_t> polygons;
   for (int count = 1 + draughtsman.below(6); count > 0; --count) {
     std::vector<Point> ring;
@@ -216,10 +217,10 @@ RC_GTEST_PROP(polygon_cover, counts_the_polygons_on_both_sides_of_every_edge, ()
     lines.add(ring);
     polygons.push_back(static_cast<std::uint32_t>(draughtsman.below(4)));
   }
-  const Arrangement arranged = arrange(lines, {}, size, size);
-  std::vector<GraphEdge> edges;
+  const geom::Arrangement arranged = geom::arrange(lines, {}, size, size);
+  std::vector<geom::GraphEdge> edges;
   for (const auto& edge : arranged.edges) edges.push_back({edge.a, edge.b});
-  std::vector<PolygonEdge> passes;
+  std::vector<geom::PolygonEdge> passes;
   for (const auto& chain : arranged.chains) {
     const auto stops = arranged.stops_of(chain);
     for (std::size_t k = 0; k + 1 < stops.size(); ++k)
@@ -227,13 +228,13 @@ RC_GTEST_PROP(polygon_cover, counts_the_polygons_on_both_sides_of_every_edge, ()
           {polygons[chain.line],
            {std::min(stops[k].vertex, stops[k + 1].vertex), std::max(stops[k].vertex, stops[k + 1].vertex)}});
   }
-  const auto covers = cover_edges(arranged.vertices, edges, passes);
+  const auto covers = geom::cover_edges(arranged.vertices, edges, passes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Point a = arranged.vertices[edges[i][0]], b = arranged.vertices[edges[i][1]];
     if (a.y == b.y) continue;
     const Point middle{a.x + b.x, a.y + b.y};
     std::array<int, 4> left{}, right{};
-    for (const PolygonEdge& pass : passes) {
+    for (const geom::PolygonEdge& pass : passes) {
       const Point p = arranged.vertices[pass.edge[0]], q = arranged.vertices[pass.edge[1]];
       if (pass.edge == edges[i]) {
         right[pass.polygon] ^= 1;

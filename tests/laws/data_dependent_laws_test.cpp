@@ -32,8 +32,9 @@ Field any_field(std::int32_t largest) {
 struct Errors {
   double largest = 0, squares = 0;
 };
-Errors errors_in(const Raster& raster, const Corners& corners) {
-  const Plane plane = Plane::through(corners, {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])});
+Errors errors_in(const grid::Raster& raster, const Corners& corners) {
+  const geom::Plane plane =
+      geom::Plane::through(corners, {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])});
   Errors errors;
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     for (std::int32_t x = 0; x < raster.cols; ++x) {
@@ -50,20 +51,20 @@ Errors errors_in(const Raster& raster, const Corners& corners) {
 }
 
 /// The rule of the paper's program, without cache, early end or any other optimisation.
-class TextbookRule final : public FlipRule {
+class TextbookRule final : public tin::FlipRule {
  public:
-  TextbookRule(const Raster& raster, EdgeScore score, double threshold)
+  TextbookRule(const grid::Raster& raster, EdgeScore score, double threshold)
       : raster_(raster), score_(score), threshold_(threshold) {}
 
-  bool should_flip(const Triangulation& tin, HalfEdge h) override {
-    const Quadrilateral quad(tin, h);
+  bool should_flip(const tin::Triangulation& tin, tin::HalfEdge h) override {
+    const refine::Quadrilateral quad(tin, h);
     if (!quad.can_flip()) return false;
     if (tin.is_outside(quad.t)) {
       const auto [a, b, c] = quad.kept[0];
-      return in_circle(a, b, c, quad.kept[1][2]) > 0;
+      return geom::in_circle(a, b, c, quad.kept[1][2]) > 0;
     }
-    const double kept = box_quality(quad.kept[0]) * box_quality(quad.kept[1]);
-    const double other = box_quality(quad.other[0]) * box_quality(quad.other[1]);
+    const double kept = refine::box_quality(quad.kept[0]) * refine::box_quality(quad.kept[1]);
+    const double other = refine::box_quality(quad.other[0]) * refine::box_quality(quad.other[1]);
     if (!(std::min(kept, other) / std::max(kept, other) > threshold_)) return other > kept;
     return score(quad.other) < score(quad.kept);
   }
@@ -75,30 +76,31 @@ class TextbookRule final : public FlipRule {
     return score_ == EdgeScore::kSum ? first.largest + second.largest : first.squares + second.squares;
   }
 
-  Raster raster_;
+  grid::Raster raster_;
   EdgeScore score_;
   double threshold_;
 };
 
 RC_GTEST_PROP(data_dependent, edges_are_those_of_the_textbook_rule, ()) {
   const Field field = any_field(14);
-  const Raster raster = field.raster();
-  auto fast = build_domain(raster, 0, grid_frame(field.rows)), slow = build_domain(raster, 0, grid_frame(field.rows));
+  const grid::Raster raster = field.raster();
+  auto fast = refine::build_domain(raster, 0, grid_frame(field.rows)),
+       slow = refine::build_domain(raster, 0, grid_frame(field.rows));
   RC_PRE(fast.has_value());
   const EdgeScore score = *rc::gen::element(EdgeScore::kSum, EdgeScore::kMax);
   const double threshold = *rc::gen::element(0.0, 0.2, 0.5, 1.0);
-  const HeightMetric metric(raster, 0);
-  Refinement refinement(metric, fast->tin, Algorithm::kHeap, {true, score, threshold, 0, false});
+  const metric::HeightMetric metric(raster, 0);
+  refine::Refinement refinement(metric, fast->tin, Algorithm::kHeap, {true, score, threshold, 0, false});
   TextbookRule rule(raster, score, threshold);
   while (!refinement.done()) {
     refinement.insert_worst();
-    const Point p = fast->tin.point(static_cast<Vertex>(fast->tin.vertex_count() - 1));
+    const Point p = fast->tin.point(static_cast<tin::Vertex>(fast->tin.vertex_count() - 1));
     slow->tin.insert(p, slow->tin.locate(p, slow->tin.last_touched()), &rule);
     RC_ASSERT(fast->tin.triangle_count() == slow->tin.triangle_count());
-    std::vector<std::array<Vertex, 3>> first, second;
+    std::vector<std::array<tin::Vertex, 3>> first, second;
     for (const auto& [tin, list] : {std::pair{&fast->tin, &first}, {&slow->tin, &second}}) {
-      for (Triangle t = 0; t < tin->triangle_count(); ++t) {
-        std::array<Vertex, 3> ids{tin->origin(3 * t), tin->origin(3 * t + 1), tin->origin(3 * t + 2)};
+      for (tin::Triangle t = 0; t < tin->triangle_count(); ++t) {
+        std::array<tin::Vertex, 3> ids{tin->origin(3 * t), tin->origin(3 * t + 1), tin->origin(3 * t + 2)};
         std::sort(ids.begin(), ids.end());
         list->push_back(ids);
       }
@@ -111,16 +113,16 @@ RC_GTEST_PROP(data_dependent, edges_are_those_of_the_textbook_rule, ()) {
 // Scape's data-dependent mode lost samples on edges, so that its reported max error was too small.
 RC_GTEST_PROP(data_dependent, the_engines_largest_error_is_the_largest_error, ()) {
   const Field field = any_field(24);
-  const Raster raster = field.raster();
-  auto domain = build_domain(raster, 0, grid_frame(field.rows));
+  const grid::Raster raster = field.raster();
+  auto domain = refine::build_domain(raster, 0, grid_frame(field.rows));
   RC_PRE(domain.has_value());
-  const HeightMetric metric(raster, 0);
+  const metric::HeightMetric metric(raster, 0);
   const EdgeRule rule = testing::any_edge_rule();
-  Refinement refinement(metric, domain->tin, Algorithm::kHeap, rule);
+  refine::Refinement refinement(metric, domain->tin, Algorithm::kHeap, rule);
   const auto steps = *rc::gen::inRange(1, 120);
   for (int k = 0; k < steps && !refinement.done(); ++k) refinement.insert_worst();
   double largest = 0;
-  for (Triangle t = 0; t < domain->tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < domain->tin.triangle_count(); ++t) {
     if (!domain->tin.is_outside(t)) largest = std::max(largest, errors_in(raster, domain->tin.corners(t)).largest);
   }
   if (!refinement.done()) RC_ASSERT(refinement.worst_error() == largest);
@@ -145,7 +147,7 @@ RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_
 
 // Synthetic fields: if the surface bends in only one direction, Delaunay's round triangles are wasteful.
 TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
-  const auto field = generate_field(FieldStyle::kDiagonalStep, 256, 256);
+  const auto field = grid::generate_field(grid::FieldStyle::kDiagonalStep, 256, 256);
   ASSERT_TRUE(field);
   PaperOptions options{.goals = {.max_vertices = 200}};
   const double delaunay = simplify_by_paper(*field, options)->measurement.max_error;

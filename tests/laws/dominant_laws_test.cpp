@@ -18,12 +18,13 @@ using testing::Relief;
 using testing::start;
 using Started = testing::StartedTile;
 
-std::vector<TilePoint> refine(const Field& field, double threshold, const ScanKernels& kernels, TileMesh& mesh) {
+std::vector<geom::TilePoint> refine(const Field& field, double threshold, const geom::ScanKernels& kernels,
+                                    tin::TileMesh& mesh) {
   Started started;
   if (!start(field, started)) return {};
-  TileScanner scanner(started.tile.view(), threshold, kernels);
-  std::vector<TilePoint> inserted;
-  const DominantRun run = refine_dominant(started.mesh, scanner, SIZE_MAX, &inserted);
+  refine::TileScanner scanner(started.tile.view(), threshold, kernels);
+  std::vector<geom::TilePoint> inserted;
+  const refine::DominantRun run = refine::refine_dominant(started.mesh, scanner, SIZE_MAX, &inserted);
   EXPECT_TRUE(run.finished);
   EXPECT_EQ(run.insertions, inserted.size());
   mesh = std::move(started.mesh);
@@ -35,8 +36,8 @@ RC_GTEST_PROP(dominant, ends_with_every_sample_within_the_bound, ()) {
   const double threshold = testing::any_tile_threshold();
   Started started;
   RC_PRE(start(field, started));
-  TileScanner scanner(started.tile.view(), threshold);
-  refine_dominant(started.mesh, scanner);
+  refine::TileScanner scanner(started.tile.view(), threshold);
+  refine::refine_dominant(started.mesh, scanner);
   RC_ASSERT(!scanner.has_given_up());
   const std::string unsound = testing::verify_tile_mesh(started.mesh, field.cols, field.rows);
   RC_ASSERT(unsound == "");
@@ -49,8 +50,8 @@ RC_GTEST_PROP(dominant, reproduces_slopes_that_float32_cannot_hold, ()) {
   const Field field =
       testing::sloping_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 40), *rc::gen::inRange(2, 40));
   const double threshold = *rc::gen::element(0.0, 0x1p-60, 0x1p-40, 0x1p-30, 0x1p-26);
-  TileMesh mesh;
-  refine(field, threshold, scan_kernels(), mesh);
+  tin::TileMesh mesh;
+  refine(field, threshold, geom::scan_kernels(), mesh);
   const std::string broken = testing::find_broken_bound(field.raster(), mesh, threshold);
   RC_ASSERT(broken == "");
 }
@@ -58,37 +59,37 @@ RC_GTEST_PROP(dominant, reproduces_slopes_that_float32_cannot_hold, ()) {
 RC_GTEST_PROP(dominant, gives_the_same_mesh_by_every_kernel_and_every_time, ()) {
   const Field field = testing::any_tile_field(90);
   const double threshold = testing::any_tile_threshold();
-  TileMesh first;
-  const auto inserted = refine(field, threshold, scan_kernels(), first);
-  for (const ScanKernels& kernels : available_kernels()) {
-    TileMesh again;
+  tin::TileMesh first;
+  const auto inserted = refine(field, threshold, geom::scan_kernels(), first);
+  for (const geom::ScanKernels& kernels : geom::available_kernels()) {
+    tin::TileMesh again;
     RC_ASSERT(refine(field, threshold, kernels, again) == inserted);
     RC_ASSERT(testing::triangles_of(again) == testing::triangles_of(first));
   }
 }
 
 /// True if no triangle that the candidate of t removes, nor one beyond them, has a larger key.
-bool is_local_maximum(TileMesh& mesh, TileMesh::Id t) {
+bool is_local_maximum(tin::TileMesh& mesh, tin::TileMesh::Id t) {
   const std::int64_t key = mesh[t].key;
-  const TileMesh::Cavity cavity = mesh.find_cavity(t, candidate_of(key));
+  const tin::TileMesh::Cavity cavity = mesh.find_cavity(t, refine::candidate_of(key));
   bool is_largest = true;
-  for (const TileMesh::Id removed : cavity.removed) is_largest = is_largest && mesh[removed].key <= key;
+  for (const tin::TileMesh::Id removed : cavity.removed) is_largest = is_largest && mesh[removed].key <= key;
   for (const auto& side : cavity.sides)
-    is_largest =
-        is_largest && (side.beyond == TileMesh::kBorder || mesh[TileMesh::triangle_of(side.beyond)].key <= key);
+    is_largest = is_largest &&
+                 (side.beyond == tin::TileMesh::kBorder || mesh[tin::TileMesh::triangle_of(side.beyond)].key <= key);
   return is_largest;
 }
 
-void scan_all(TileMesh& mesh, TileScanner& scanner) {
-  std::vector<TileMesh::Id> all(mesh.triangle_count());
+void scan_all(tin::TileMesh& mesh, refine::TileScanner& scanner) {
+  std::vector<tin::TileMesh::Id> all(mesh.triangle_count());
   std::iota(all.begin(), all.end(), 0u);
   scanner.scan(mesh, all, {});
 }
 
 /// A triangle whose candidate is p and a local maximum.
-std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<TilePoint> p) {
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh[t].key > 0 && (!p || candidate_of(mesh[t].key) == *p) && is_local_maximum(mesh, t)) return t;
+std::optional<tin::TileMesh::Id> find_maximum(tin::TileMesh& mesh, std::optional<geom::TilePoint> p) {
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh[t].key > 0 && (!p || refine::candidate_of(mesh[t].key) == *p) && is_local_maximum(mesh, t)) return t;
   }
   return std::nullopt;
 }
@@ -97,13 +98,13 @@ std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<TilePoint
 RC_GTEST_PROP(dominant, inserts_local_maxima_only_and_leaves_none, ()) {
   const Field field = testing::any_tile_field(22);
   const double threshold = testing::any_tile_threshold();
-  TileMesh refined;
-  const auto inserted = refine(field, threshold, scan_kernels(), refined);
+  tin::TileMesh refined;
+  const auto inserted = refine(field, threshold, geom::scan_kernels(), refined);
   Started slow;
   RC_PRE(start(field, slow));
-  TileScanner scanner(slow.tile.view(), threshold, available_kernels().back());
+  refine::TileScanner scanner(slow.tile.view(), threshold, geom::available_kernels().back());
   scan_all(slow.mesh, scanner);
-  for (const TilePoint p : inserted) {
+  for (const geom::TilePoint p : inserted) {
     const auto t = find_maximum(slow.mesh, p);
     RC_ASSERT(t.has_value());
     slow.mesh.find_cavity(*t, p);
@@ -120,14 +121,14 @@ TEST(dominant, another_order_of_local_maxima_keeps_the_bound_with_as_many_vertic
   for (const Relief relief : testing::kReliefs) {
     for (const double threshold : {0.5, 4.0}) {
       const Field field = testing::random_field(77, 48, 40, relief, 0.02);
-      TileMesh refined;
-      refine(field, threshold, scan_kernels(), refined);
+      tin::TileMesh refined;
+      refine(field, threshold, geom::scan_kernels(), refined);
       Started twin;
       ASSERT_TRUE(start(field, twin));
-      TileScanner scanner(twin.tile.view(), threshold);
+      refine::TileScanner scanner(twin.tile.view(), threshold);
       scan_all(twin.mesh, scanner);
       while (const auto t = find_maximum(twin.mesh, std::nullopt)) {
-        const TilePoint p = candidate_of(twin.mesh[*t].key);
+        const geom::TilePoint p = refine::candidate_of(twin.mesh[*t].key);
         twin.mesh.find_cavity(*t, p);
         scanner.scan(twin.mesh, twin.mesh.fill_cavity(p), {});
       }
@@ -144,8 +145,8 @@ TEST(dominant, stops_at_the_most_vertices_allowed) {
   for (const std::size_t most : {4u, 5u, 100u}) {
     Started started;
     ASSERT_TRUE(start(field, started));
-    TileScanner scanner(started.tile.view(), 0.5);
-    EXPECT_FALSE(refine_dominant(started.mesh, scanner, most).finished);
+    refine::TileScanner scanner(started.tile.view(), 0.5);
+    EXPECT_FALSE(refine::refine_dominant(started.mesh, scanner, most).finished);
     EXPECT_EQ(started.mesh.vertex_count(), most);
   }
 }
@@ -154,8 +155,8 @@ TEST(dominant, a_plane_needs_no_vertex_but_the_corners) {
   Field field{40, 30, {}};
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) field.samples.push_back(static_cast<float>(3 * x - 7 * y) / 4.0f);
-  TileMesh mesh;
-  EXPECT_TRUE(refine(field, 0, scan_kernels(), mesh).empty());
+  tin::TileMesh mesh;
+  EXPECT_TRUE(refine(field, 0, geom::scan_kernels(), mesh).empty());
 }
 
 RC_GTEST_PROP(tile_scanner, ranks_what_breaks_the_bound_and_nothing_else, ()) {
@@ -163,18 +164,19 @@ RC_GTEST_PROP(tile_scanner, ranks_what_breaks_the_bound_and_nothing_else, ()) {
   const double threshold = testing::any_tile_threshold();
   Started started;
   RC_PRE(start(field, started));
-  TileMesh& mesh = started.mesh;
-  TileScanner scanner(started.tile.view(), threshold);
-  refine_dominant(mesh, scanner, 4 + *rc::gen::inRange<std::size_t>(0, 40));
+  tin::TileMesh& mesh = started.mesh;
+  refine::TileScanner scanner(started.tile.view(), threshold);
+  refine::refine_dominant(mesh, scanner, 4 + *rc::gen::inRange<std::size_t>(0, 40));
   scan_all(mesh, scanner);
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.is_outside(t)) continue;
     std::array<Point, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = point_of(mesh[t].corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = geom::point_of(mesh[t].corners[k]);
     const bool breaks = testing::find_broken_bound(field.raster(), corners, threshold) != "";
     RC_ASSERT((mesh[t].key > 0) == breaks);
     if (breaks)
-      RC_ASSERT(std::find(corners.begin(), corners.end(), point_of(candidate_of(mesh[t].key))) == corners.end());
+      RC_ASSERT(std::find(corners.begin(), corners.end(), geom::point_of(refine::candidate_of(mesh[t].key))) ==
+                corners.end());
   }
 }
 
@@ -191,24 +193,24 @@ TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
   constexpr double kBound = 20;
   for (const auto& [cols, rows] : {std::pair{257, 257}, {300, 199}, {129, 131}, {40, 400}}) {
     const Field field = hills(cols, rows);
-    for (const SharedSides shared :
-         {SharedSides{}, SharedSides{true, true, true, true}, SharedSides{true, false, false, true}}) {
+    for (const refine::SharedSides shared : {refine::SharedSides{}, refine::SharedSides{true, true, true, true},
+                                             refine::SharedSides{true, false, false, true}}) {
       Started started;
       ASSERT_TRUE(start(field, started));
-      CoarseStart coarse;
+      refine::CoarseStart coarse;
       coarse.insert(started.tile, shared, kBound, 0, false, started.mesh);
       EXPECT_EQ(testing::verify_tile_mesh(started.mesh, cols, rows), "");
       EXPECT_EQ(started.mesh.vertex_count() > 4, std::min(cols, rows) > 64);
-      for (TileMesh::Id t = 0; t < started.mesh.triangle_count(); ++t) {
-        for (const TilePoint p : started.mesh[t].corners) {
-          const std::int32_t x = tile_x(p), y = tile_y(p);
+      for (tin::TileMesh::Id t = 0; t < started.mesh.triangle_count(); ++t) {
+        for (const geom::TilePoint p : started.mesh[t].corners) {
+          const std::int32_t x = geom::tile_x(p), y = geom::tile_y(p);
           const bool is_corner = (x == 0 || x == cols - 1) && (y == 0 || y == rows - 1);
           EXPECT_TRUE(is_corner || !((shared.left && x == 0) || (shared.top && y == 0) ||
                                      (shared.right && x == cols - 1) || (shared.bottom && y == rows - 1)));
         }
       }
-      TileScanner scanner(started.tile.view(), kBound);
-      refine_dominant(started.mesh, scanner);
+      refine::TileScanner scanner(started.tile.view(), kBound);
+      refine::refine_dominant(started.mesh, scanner);
       EXPECT_EQ(testing::find_broken_bound(field.raster(), started.mesh, kBound), "");
     }
   }
@@ -218,7 +220,7 @@ TEST(coarse_start, is_left_out_where_the_mesh_will_be_dense) {
   const Field field = hills(257, 257);
   Started started;
   ASSERT_TRUE(start(field, started));
-  CoarseStart coarse;
+  refine::CoarseStart coarse;
   coarse.insert(started.tile, {}, 5, 0.5, true, started.mesh);
   EXPECT_EQ(started.mesh.vertex_count(), 4u);
   EXPECT_EQ(coarse.work().triangles_scanned, 0u);

@@ -16,7 +16,7 @@ namespace scarp::testing {
 struct Field {
   std::int32_t cols = 0, rows = 0;
   std::vector<float> samples;
-  Raster raster() const { return {samples.data(), cols, rows}; }
+  grid::Raster raster() const { return {samples.data(), cols, rows}; }
   HeightField view() const { return {samples.data(), cols, rows, std::nullopt, grid_frame(rows), 0}; }
 };
 

@@ -30,7 +30,7 @@ std::shared_ptr<const HeightZero> proj_egm96() {
   info.geotransform = {0, 1, 0, 10, 0, -1};
   info.vertical = "the heights of PROJ's grid";
   info.crs_with_heights = "+proj=longlat +datum=WGS84 +geoidgrids=egm96_15.gtx +vunits=m +no_defs +type=crs";
-  const auto globe = place_on_globe(info, 10, 10, Datum(), "raster");
+  const auto globe = io::place_on_globe(info, 10, 10, Datum(), "raster");
   return globe ? globe->zero : nullptr;
 }
 

@@ -40,7 +40,9 @@ std::vector<float> make_land(int cols, int rows, bool has_holes, unsigned seed) 
 class Sink final : public TileSink {
  public:
   explicit Sink(const PyramidPlan& plan) : plan_(plan) {}
-  Result<Bytes> encode(const TerrainTile& tile) const override { return encode_tile_glb(place_on_earth(tile, plan_)); }
+  Result<Bytes> encode(const TerrainTile& tile) const override {
+    return io::encode_tile_glb(io::place_on_earth(tile, plan_));
+  }
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
     tiles[{id.z, id.y, id.x}] = {bytes.begin(), bytes.end()};
     return {};
@@ -115,8 +117,8 @@ TEST_P(LocalTiles, have_all_samples_within_the_bound_and_end_with_the_raster) {
   for (const auto& [key, bytes] : tiles_) {
     const auto& [z, y, x] = key;
     const auto level = static_cast<std::size_t>(z);
-    const double bound = report_.levels[level].bound + lattice_error(plan_, z);
-    const auto tile = decode_tile_glb(bytes, "tile");
+    const double bound = report_.levels[level].bound + io::lattice_error(plan_, z);
+    const auto tile = io::decode_tile_glb(bytes, "tile");
     ASSERT_TRUE(tile) << tile.error().message;
     // At levels above the blocks, the last node may lie up to a coarse cell beyond the raster.
     const DegreeBox box = plan_.grid.bounds_of({z, x, y});
@@ -186,9 +188,9 @@ TEST_P(LocalTiles, are_the_same_made_alone_and_with_their_block) {
 }
 
 TEST_P(LocalTiles, meet_their_neighbours) {
-  std::map<Key, TileGlb> decoded;
-  for (const auto& [key, bytes] : tiles_) decoded[key] = *decode_tile_glb(bytes, "tile");
-  const auto edge = [](const TileGlb& tile, const std::vector<std::uint32_t>& vertices) {
+  std::map<Key, io::TileGlb> decoded;
+  for (const auto& [key, bytes] : tiles_) decoded[key] = *io::decode_tile_glb(bytes, "tile");
+  const auto edge = [](const io::TileGlb& tile, const std::vector<std::uint32_t>& vertices) {
     std::vector<std::array<double, 6>> places;
     for (const std::uint32_t v : vertices) {
       const auto &at = tile.positions[v], &normal = tile.normals[v];

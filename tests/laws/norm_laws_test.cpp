@@ -27,20 +27,20 @@ using testing::Relief;
 /// Heights, channels with other reliefs, and their scales.
 struct Stack {
   std::vector<Field> layers;  // the first is the heights
-  std::vector<MetricField> judged;
+  std::vector<metric::MetricField> judged;
   Norm norm = Norm::kSum;
   double threshold = 0;
   std::vector<float> bounds;
 
   const Field& heights() const { return layers[0]; }
-  MetricSettings settings() const {
-    MetricSettings settings{heights().raster(), judged, norm, threshold};
+  metric::MetricSettings settings() const {
+    metric::MetricSettings settings{heights().raster(), judged, norm, threshold};
     if (!bounds.empty()) settings.bounds = bounds.data();
     return settings;
   }
-  FitNorm fit_norm(const ErrorMetric& metric) const {
-    FitNorm of;
-    for (const MetricField& field : judged) of.fields.push_back({field.samples, field.scale});
+  fit::FitNorm fit_norm(const metric::ErrorMetric& metric) const {
+    fit::FitNorm of;
+    for (const metric::MetricField& field : judged) of.fields.push_back({field.samples, field.scale});
     of.norm = norm;
     of.find_breach = [&metric](const std::array<Point, 3>& corners) {
       const auto candidate = metric.find_candidate(corners, metric.fit(corners, {}));
@@ -51,11 +51,11 @@ struct Stack {
   double bound_at(Point p) const {
     return bounds.empty() ? threshold : double{bounds[static_cast<std::size_t>(p.y * heights().cols + p.x)]};
   }
-  NormError errors(const FitNorm& of, double unit) const {
-    NormError::Samples samples{heights().raster(), {}, {0, 0}, {0, 0}};
-    for (const MetricField& field : judged) samples.fields.push_back(field.samples);
-    return bounds.empty() ? NormError(of, std::move(samples), threshold)
-                          : NormError(of, std::move(samples), SampleBounds{bounds.data(), unit});
+  fit::NormError errors(const fit::FitNorm& of, double unit) const {
+    fit::NormError::Samples samples{heights().raster(), {}, {0, 0}, {0, 0}};
+    for (const metric::MetricField& field : judged) samples.fields.push_back(field.samples);
+    return bounds.empty() ? fit::NormError(of, std::move(samples), threshold)
+                          : fit::NormError(of, std::move(samples), fit::SampleBounds{bounds.data(), unit});
   }
 };
 
@@ -88,8 +88,8 @@ Stack any_stack(std::int32_t largest) {
   return stack;
 }
 
-FitCorner at_sample(const Stack& stack, Point p) {
-  return {p.x * kLatticeSteps, p.y * kLatticeSteps, stack.heights().raster().at(p)};
+fit::FitCorner at_sample(const Stack& stack, Point p) {
+  return {p.x * grid::kLatticeSteps, p.y * grid::kLatticeSteps, stack.heights().raster().at(p)};
 }
 
 /// Three valid samples, counter-clockwise; none if all or too many samples are collinear.
@@ -139,8 +139,8 @@ struct Oracle {
            double unit, double slack) {
     std::vector<double> errors;
     double sum = 0, squares = 0, largest = 0;
-    for (const MetricField& field : stack.judged) {
-      const Raster values{field.samples, stack.heights().cols, stack.heights().rows};
+    for (const metric::MetricField& field : stack.judged) {
+      const grid::Raster values{field.samples, stack.heights().cols, stack.heights().rows};
       double error = -values.at(p);
       for (std::size_t k = 0; k < 3; ++k) error += weights[k] * double{values.at(corners[k])};
       errors.push_back(field.scale * error);
@@ -167,19 +167,19 @@ struct Oracle {
 };
 
 constexpr float kAnyEnergy = std::numeric_limits<float>::infinity();
-using Kind = TriangleError::Verdict::Kind;
+using Kind = fit::TriangleError::Verdict::Kind;
 
 RC_GTEST_PROP(norms, of_a_triangle_are_decided_as_refinement_does, ()) {
   const Stack stack = any_stack(*rc::gen::element(6, 30));
   const auto corners = any_corners(stack);
   RC_PRE(corners.has_value());
-  const SampleMetric metric(stack.settings());
-  const FitNorm norm = stack.fit_norm(metric);
+  const metric::SampleMetric metric(stack.settings());
+  const fit::FitNorm norm = stack.fit_norm(metric);
   const double unit = stack.bounds.empty() ? stack.threshold : 4;
-  const NormError error = stack.errors(norm, unit);
-  const NormError::Corners at{at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]),
-                              at_sample(stack, (*corners)[2])};
-  const auto power = *rc::gen::element(ErrorRule::Power::kTwo, ErrorRule::Power::kEight);
+  const fit::NormError error = stack.errors(norm, unit);
+  const fit::NormError::Corners at{at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]),
+                                   at_sample(stack, (*corners)[2])};
+  const auto power = *rc::gen::element(fit::ErrorRule::Power::kTwo, fit::ErrorRule::Power::kEight);
   const bool keeps = !norm.find_breach(*corners);
   const auto verdict = error.assess(at, kAnyEnergy, {1, power});
   RC_ASSERT((verdict.kind == Kind::kKeeps) == keeps);
@@ -194,14 +194,14 @@ RC_GTEST_PROP(norms, of_a_triangle_are_decided_as_refinement_does, ()) {
   }
   if (!error.has_energy()) return;
   const double slack = 2.5;
-  const auto loose = error.assess(at, kAnyEnergy, {slack, ErrorRule::Power::kEight});
+  const auto loose = error.assess(at, kAnyEnergy, {slack, fit::ErrorRule::Power::kEight});
   const Oracle wide(stack, *corners, unit, slack);
   constexpr double kDoubtful = 1e-2;
   if (std::abs(wide.excess) > kDoubtful) RC_ASSERT((loose.kind == Kind::kKeeps) == (wide.excess < 0));
   if (loose.kind != Kind::kKeeps) return;
   RC_ASSERT((loose.worst <= 1) == keeps);
   RC_ASSERT(std::abs(double{loose.energy} - wide.energy) <= 1e-2 * (1 + wide.energy));
-  RC_ASSERT(error.assess(at, 0, {slack, ErrorRule::Power::kEight}).kind == Kind::kCostly);
+  RC_ASSERT(error.assess(at, 0, {slack, fit::ErrorRule::Power::kEight}).kind == Kind::kCostly);
 }
 
 RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
@@ -213,11 +213,12 @@ RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
   const double unit = stack.bounds.empty() ? stack.threshold : 4;
   const Oracle oracle(stack, *corners, unit);
   RC_PRE(oracle.worst < 10);
-  const SampleMetric metric(stack.settings());
-  const FitNorm norm = stack.fit_norm(metric);
-  std::vector<TriangleError::Pull> pulls;
+  const metric::SampleMetric metric(stack.settings());
+  const fit::FitNorm norm = stack.fit_norm(metric);
+  std::vector<fit::TriangleError::Pull> pulls;
   stack.errors(norm, unit)
-      .pull({at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]), at_sample(stack, (*corners)[2])}, ErrorRule::Power::kEight, pulls);
+      .pull({at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]), at_sample(stack, (*corners)[2])},
+            fit::ErrorRule::Power::kEight, pulls);
   RC_ASSERT(pulls.size() == stack.judged.size());
   for (std::size_t k = 0; k < pulls.size(); ++k) {
     RC_ASSERT(std::abs(pulls[k].stiffness - oracle.stiffness[k]) <= 1e-2 * (1 + oracle.stiffness[k]));
@@ -225,11 +226,11 @@ RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
   }
 }
 
-std::optional<Triangulation> refined(const Stack& stack) {
-  auto domain = build_domain(stack.heights().raster(), 0, grid_frame(stack.heights().rows));
+std::optional<tin::Triangulation> refined(const Stack& stack) {
+  auto domain = refine::build_domain(stack.heights().raster(), 0, grid_frame(stack.heights().rows));
   if (!domain) return std::nullopt;
-  const SampleMetric metric(stack.settings());
-  Refinement refinement(metric, domain->tin);
+  const metric::SampleMetric metric(stack.settings());
+  refine::Refinement refinement(metric, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
 }
@@ -239,25 +240,25 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   auto tin = refined(stack);
   RC_PRE(tin.has_value());
   const std::size_t before = tin->triangle_count();
-  const SampleMetric metric(stack.settings());
-  const FitNorm norm = stack.fit_norm(metric);
-  FitOptions options{.threshold = stack.threshold,
-                     .bounds = stack.bounds,
-                     .norm = &norm,
-                     .threads = 1,
-                     .depth = any_depth(0),
-                     .min_shape = *rc::gen::element(0.0, 0.1),
-                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
-                     .patch_side = *rc::gen::element(0, 5, 16)};
-  const auto first = *fit(stack.heights().raster(), std::move(*tin), options);
+  const metric::SampleMetric metric(stack.settings());
+  const fit::FitNorm norm = stack.fit_norm(metric);
+  fit::FitOptions options{.threshold = stack.threshold,
+                          .bounds = stack.bounds,
+                          .norm = &norm,
+                          .threads = 1,
+                          .depth = any_depth(0),
+                          .min_shape = *rc::gen::element(0.0, 0.1),
+                          .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                          .patch_side = *rc::gen::element(0, 5, 16)};
+  const auto first = *fit::fit(stack.heights().raster(), std::move(*tin), options);
   RC_ASSERT(first.lattice.are_samples());
   RC_ASSERT(first.tin.triangle_count() <= before);
-  for (Triangle t = 0; t < first.tin.triangle_count(); ++t)
+  for (tin::Triangle t = 0; t < first.tin.triangle_count(); ++t)
     RC_ASSERT(first.tin.is_outside(t) || !norm.find_breach(first.tin.corners(t)));
   RC_ASSERT(
       testing::verify_triangulation(first.tin, stack.heights().cols, stack.heights().rows, testing::Edges::kAny) == "");
   options.threads = 3;
-  const auto again = *fit(stack.heights().raster(), *refined(stack), options);
+  const auto again = *fit::fit(stack.heights().raster(), *refined(stack), options);
   RC_ASSERT(is_same(again.tin, first.tin));
 }
 
@@ -266,13 +267,13 @@ TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   Stack stack{{field}, {}, Norm::kMax, 4, {}};
   for (int k = 0; k < 3; ++k) stack.judged.push_back({stack.layers[0].samples.data(), 1});
-  const SampleMetric metric(stack.settings());
-  const FitNorm norm = stack.fit_norm(metric);
-  for (const FitDepth& depth : {FitDepth{}, kHighDepth}) {
-    FitOptions options{.threshold = 4, .depth = depth};
-    const auto plain = *fit(field.raster(), *testing::refined(field, 4), options);
+  const metric::SampleMetric metric(stack.settings());
+  const fit::FitNorm norm = stack.fit_norm(metric);
+  for (const fit::FitDepth& depth : {fit::FitDepth{}, fit::kHighDepth}) {
+    fit::FitOptions options{.threshold = 4, .depth = depth};
+    const auto plain = *fit::fit(field.raster(), *testing::refined(field, 4), options);
     options.norm = &norm;
-    const auto combined = *fit(field.raster(), *refined(stack), options);
+    const auto combined = *fit::fit(field.raster(), *refined(stack), options);
     const auto count = static_cast<double>(plain.tin.triangle_count());
     EXPECT_NEAR(static_cast<double>(combined.tin.triangle_count()), count, 0.01 * count);
   }

@@ -31,8 +31,8 @@ PointSet any_points(int most, Scatter scatter, Heights heights) {
 
 /// False if all points are collinear; then nothing is guaranteed.
 bool has_area(const PointSet& points) {
-  const auto snapped = snap_points(points, DuplicatePolicy::kFirst);
-  return snapped && build_domain(*snapped).has_value();
+  const auto snapped = grid::snap_points(points, DuplicatePolicy::kFirst);
+  return snapped && refine::build_domain(*snapped).has_value();
 }
 
 Quality any_quality() {
@@ -76,7 +76,7 @@ RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
       points, {.max_error = goal, .float32_positions = false, .duplicates = policy, .quality = any_quality()});
   if (!result) RC_FAIL(result.error().message);
   const Measurement& m = result->simplified.measurement;
-  const auto snapped = *snap_points(points, policy);
+  const auto snapped = *grid::snap_points(points, policy);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(m.border_loops == 1u);
   RC_ASSERT(m.uncovered == 0u);
@@ -146,29 +146,29 @@ RC_GTEST_PROP(points, end_with_any_shapes_and_keep_the_promise, ()) {
 }
 
 /// Algorithm I: examines everything before each insertion.
-std::vector<std::uint32_t> insert_by_brute_force(const SnappedPoints& snapped, double threshold) {
-  ScatteredDomain domain = *build_domain(snapped);
+std::vector<std::uint32_t> insert_by_brute_force(const grid::SnappedPoints& snapped, double threshold) {
+  refine::ScatteredDomain domain = *refine::build_domain(snapped);
   for (;;) {
-    Candidate worst{-1, {}};
-    std::uint32_t worst_point = kNone;
-    for (Triangle t = 0; t < domain.tin.triangle_count(); ++t) {
+    metric::Candidate worst{-1, {}};
+    std::uint32_t worst_point = tin::kNone;
+    for (tin::Triangle t = 0; t < domain.tin.triangle_count(); ++t) {
       if (domain.tin.is_outside(t)) continue;
       const auto corners = domain.tin.corners(t);
       std::array<double, 3> heights;
       for (std::uint32_t k = 0; k < 3; ++k) heights[k] = snapped.z[domain.point_of[domain.tin.origin(3 * t + k)]];
-      const Plane plane = Plane::through_double(corners, heights);
+      const geom::Plane plane = geom::Plane::through_double(corners, heights);
       for (std::uint32_t point = 0; point < snapped.size(); ++point) {
         const Point p = snapped.at[point];
         bool is_inside = true;
         for (int k = 0; k < 3; ++k) is_inside = is_inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
         const bool is_corner = p == corners[0] || p == corners[1] || p == corners[2];
-        const Candidate candidate{std::abs(plane.height_at(p) - snapped.z[point]), p};
-        if (!is_inside || is_corner || !(candidate.error > threshold) || !is_worse(candidate, worst)) continue;
+        const metric::Candidate candidate{std::abs(plane.height_at(p) - snapped.z[point]), p};
+        if (!is_inside || is_corner || !(candidate.error > threshold) || !metric::is_worse(candidate, worst)) continue;
         worst = candidate;
         worst_point = point;
       }
     }
-    if (worst_point == kNone) return domain.point_of;
+    if (worst_point == tin::kNone) return domain.point_of;
     domain.insert(worst_point, worst.at, domain.tin.locate(worst.at, 0));
   }
 }
@@ -177,9 +177,9 @@ RC_GTEST_PROP(points, are_inserted_in_the_order_of_brute_force, ()) {
   const PointSet points = any_points(70, any_scatter(), Heights::kReal);
   RC_PRE(has_area(points));
   const double goal = *rc::gen::element(0.0, 1.0, 10.0);
-  const auto snapped = *snap_points(points, DuplicatePolicy::kFirst);
-  ScatteredDomain domain = *build_domain(snapped);
-  ScatteredRefinement refinement(snapped, snapped.z, domain, goal);
+  const auto snapped = *grid::snap_points(points, DuplicatePolicy::kFirst);
+  refine::ScatteredDomain domain = *refine::build_domain(snapped);
+  refine::ScatteredRefinement refinement(snapped, snapped.z, domain, goal);
   std::uint64_t triangles = refinement.triangle_count();
   while (!refinement.done()) {
     triangles += refinement.next_gain();
@@ -248,7 +248,7 @@ RC_GTEST_PROP(points, that_differ_keep_lattice_points_of_their_own, ()) {
   const PointSet points = any_points(300, scatter, Heights::kReal);
   std::map<std::pair<double, double>, int> distinct;
   for (std::size_t i = 0; i < points.size(); ++i) ++distinct[{points.x[i], points.y[i]}];
-  const auto snapped = *snap_points(points, DuplicatePolicy::kFirst);
+  const auto snapped = *grid::snap_points(points, DuplicatePolicy::kFirst);
   RC_ASSERT(snapped.size() == distinct.size());
   RC_ASSERT(snapped.duplicates == points.size() - distinct.size());
   const auto [west, east] = std::minmax_element(points.x.begin(), points.x.end());

@@ -49,11 +49,11 @@ class RealRasters : public ::testing::TestWithParam<const char*> {
     field_ = std::move(*read);
     if (testing::kIsSanitized)
       thin_out(field_, (std::max(field_.cols, field_.rows) + kSanitizedSide - 1) / kSanitizedSide);
-    auto samples = Samples::of(field_);
+    auto samples = grid::Samples::of(field_);
     ASSERT_TRUE(samples) << samples.error().message;
     samples_.emplace(std::move(*samples));
     float low = INFINITY, high = -INFINITY;
-    const Raster raster = samples_->raster();
+    const grid::Raster raster = samples_->raster();
     for (std::int32_t y = 0; y < raster.rows; ++y) {
       for (std::int32_t x = 0; x < raster.cols; ++x) {
         if (!raster.is_valid({x, y})) continue;
@@ -65,21 +65,21 @@ class RealRasters : public ::testing::TestWithParam<const char*> {
   }
 
   OwnedHeightField field_;
-  std::optional<Samples> samples_;
+  std::optional<grid::Samples> samples_;
   double relief_ = 0;
 };
 
 TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithAnyTiles) {
-  const Raster raster = samples_->raster();
-  const auto domain = build_domain(raster, 0, Frame{});
+  const grid::Raster raster = samples_->raster();
+  const auto domain = refine::build_domain(raster, 0, Frame{});
   ASSERT_TRUE(domain) << domain.error().message;
   for (const auto& [share, side] : {std::pair{0.003, 100}, {0.03, 256}, {0.03, 0}}) {
     const double threshold = share * relief_;
-    auto tiled = refine_tiled(field_, {.threshold = threshold, .threads = 2, .tile_side = side});
+    auto tiled = pieces::refine_tiled(field_, {.threshold = threshold, .threads = 2, .tile_side = side});
     ASSERT_TRUE(tiled && *tiled);
-    Triangulation& tin = (*tiled)->domain.tin;
-    const HeightMetric metric(raster, threshold);
-    release_seams(tin, metric, std::move((*tiled)->seams));
+    tin::Triangulation& tin = (*tiled)->domain.tin;
+    const metric::HeightMetric metric(raster, threshold);
+    pieces::release_seams(tin, metric, std::move((*tiled)->seams));
     EXPECT_EQ(testing::verify_triangulation(tin, raster.cols, raster.rows, testing::Edges::kAny), "");
     EXPECT_EQ(testing::find_broken_bound(raster, tin, threshold), "");
     EXPECT_EQ(testing::outside_area2(tin), testing::outside_area2(domain->tin));
@@ -87,15 +87,16 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithAnyTiles) {
 }
 
 TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
-  const Raster raster = samples_->raster();
+  const grid::Raster raster = samples_->raster();
   for (const double share : {0.003, 0.03}) {
     const double threshold = share * relief_;
-    auto tiled = refine_tiled(field_, {.threshold = threshold, .threads = 2});
+    auto tiled = pieces::refine_tiled(field_, {.threshold = threshold, .threads = 2});
     ASSERT_TRUE(tiled && *tiled);
-    const Triangulation& tin = (*tiled)->domain.tin;
+    const tin::Triangulation& tin = (*tiled)->domain.tin;
     const std::int64_t outside = testing::outside_area2(tin);
     const std::size_t vertices = tin.vertex_count();
-    const Fitted fitted = *fit(raster, std::move((*tiled)->domain.tin), {.threshold = threshold, .threads = 2});
+    const fit::Fitted fitted =
+        *fit::fit(raster, std::move((*tiled)->domain.tin), {.threshold = threshold, .threads = 2});
     EXPECT_EQ(testing::verify_triangulation(fitted.tin, raster.cols, raster.rows, testing::Edges::kAny), "");
     EXPECT_EQ(testing::find_broken_bound(raster, fitted.tin, threshold), "");
     EXPECT_EQ(testing::outside_area2(fitted.tin), outside);
@@ -105,19 +106,19 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
 }
 
 TEST_P(RealRasters, AreRepairedWithinTheBoundWhateverTheFreedom) {
-  const Raster raster = samples_->raster();
+  const grid::Raster raster = samples_->raster();
   const double threshold = 0.02 * relief_;
-  const FitOptions on_samples{.threshold = threshold, .threads = 2, .depth = {.rounds = 2}};
-  FitOptions free = on_samples;
+  const fit::FitOptions on_samples{.threshold = threshold, .threads = 2, .depth = {.rounds = 2}};
+  fit::FitOptions free = on_samples;
   free.vertices_are_free = true;
   const auto refined = [&] {
-    auto domain = build_domain(raster, 0, field_.frame);
-    const HeightMetric metric(raster, threshold);
-    Refinement refinement(metric, domain->tin);
+    auto domain = refine::build_domain(raster, 0, field_.frame);
+    const metric::HeightMetric metric(raster, threshold);
+    refine::Refinement refinement(metric, domain->tin);
     while (!refinement.done()) refinement.insert_worst();
     return std::move(domain->tin);
   };
-  const Fitted repaired = *fit(raster, refined(), on_samples), freed = *fit(raster, refined(), free);
+  const fit::Fitted repaired = *fit::fit(raster, refined(), on_samples), freed = *fit::fit(raster, refined(), free);
   EXPECT_EQ(testing::verify_triangulation(repaired.tin, raster.cols, raster.rows, testing::Edges::kAny), "");
   EXPECT_EQ(testing::find_broken_bound(raster, repaired.tin, threshold), "");
   EXPECT_EQ(testing::verify_triangulation(freed.tin, testing::in_steps(raster.cols), testing::in_steps(raster.rows),

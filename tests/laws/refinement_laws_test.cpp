@@ -19,13 +19,14 @@ namespace {
 using testing::Field;
 using testing::Relief;
 
-std::vector<Point> insert_by_queue(const Raster& raster, Triangulation& tin, double threshold, std::size_t most) {
+std::vector<Point> insert_by_queue(const grid::Raster& raster, tin::Triangulation& tin, double threshold,
+                                   std::size_t most) {
   const std::size_t seeds = tin.vertex_count();
-  const HeightMetric metric(raster, threshold);
-  Refinement refinement(metric, tin);
+  const metric::HeightMetric metric(raster, threshold);
+  refine::Refinement refinement(metric, tin);
   while (!refinement.done() && tin.vertex_count() < seeds + most) refinement.insert_worst();
   std::vector<Point> points;
-  for (std::size_t v = seeds; v < tin.vertex_count(); ++v) points.push_back(tin.point(static_cast<Vertex>(v)));
+  for (std::size_t v = seeds; v < tin.vertex_count(); ++v) points.push_back(tin.point(static_cast<tin::Vertex>(v)));
   return points;
 }
 
@@ -49,13 +50,13 @@ std::string name(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 
 RC_GTEST_PROP(oracle, algorithms_one_two_and_three_insert_the_same_points, ()) {
   const Case c = random_case(14);
-  const auto domain = build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
+  const auto domain = refine::build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
   RC_PRE(domain.has_value());
-  auto one = build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
-  auto two = build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
-  auto three = build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
-  const auto first = insert_by_brute_force(c.field.raster(), one->tin, c.threshold, 40);
-  const auto second = insert_by_local_search(c.field.raster(), two->tin, c.threshold, 40);
+  auto one = refine::build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
+  auto two = refine::build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
+  auto three = refine::build_domain(c.field.raster(), c.outline_tolerance, grid_frame(c.field.rows));
+  const auto first = refine::insert_by_brute_force(c.field.raster(), one->tin, c.threshold, 40);
+  const auto second = refine::insert_by_local_search(c.field.raster(), two->tin, c.threshold, 40);
   const auto third = insert_by_queue(c.field.raster(), three->tin, c.threshold, 40);
   RC_ASSERT(first.size() == second.size());
   RC_ASSERT(first.size() == third.size());
@@ -68,10 +69,10 @@ RC_GTEST_PROP(oracle, algorithms_one_two_and_three_insert_the_same_points, ()) {
 // The public interface in the greedy order: the textbook's vertices on any number of threads.
 RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices, ()) {
   const Case c = random_case(18);
-  const Raster raster = c.field.raster();
-  auto domain = build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
+  const grid::Raster raster = c.field.raster();
+  auto domain = refine::build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
   RC_PRE(domain.has_value());
-  insert_by_local_search(raster, domain->tin, c.threshold, 1u << 20);
+  refine::insert_by_local_search(raster, domain->tin, c.threshold, 1u << 20);
   SimplifyOptions options{.goals = {.max_error = c.threshold}, .domain = {.outline_tolerance = c.outline_tolerance}};
   options.quality.order = Order::kGreedy;
   options.run.threads = *rc::gen::inRange(1, 4);
@@ -79,11 +80,11 @@ RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices,
   RC_ASSERT(result.has_value());
   RC_ASSERT(result->order == Order::kGreedy);
   std::vector<std::pair<int, int>> expected, found;
-  std::set<Vertex> used;
-  for (HalfEdge h = 0; h < 3 * domain->tin.triangle_count(); ++h) {
+  std::set<tin::Vertex> used;
+  for (tin::HalfEdge h = 0; h < 3 * domain->tin.triangle_count(); ++h) {
     if (!domain->tin.is_outside(h / 3)) used.insert(domain->tin.origin(h));
   }
-  for (const Vertex v : used) expected.push_back({domain->tin.point(v).x, domain->tin.point(v).y});
+  for (const tin::Vertex v : used) expected.push_back({domain->tin.point(v).x, domain->tin.point(v).y});
   for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
     const auto p = result->mesh.vertex(v);
     found.push_back({static_cast<int>(p[0]), c.field.rows - 1 - static_cast<int>(p[1])});
@@ -96,15 +97,15 @@ RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices,
 // The guarantee in integers without scan conversion: every valid sample in every triangle that contains it.
 RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
   const Case c = random_case(22);
-  const Raster raster = c.field.raster();
-  auto domain = build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
+  const grid::Raster raster = c.field.raster();
+  auto domain = refine::build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
   RC_PRE(domain.has_value());
-  Triangulation& tin = domain->tin;
+  tin::Triangulation& tin = domain->tin;
   insert_by_queue(raster, tin, c.threshold, 1u << 20);
   RC_ASSERT(testing::verify_triangulation(tin, raster.cols, raster.rows) == "");
   std::int64_t domain_area2 = 0, cells_area2 = 0;
   std::vector<int> covered(c.field.samples.size(), 0);
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     const auto corners = tin.corners(t);
     domain_area2 += orient(corners[0], corners[1], corners[2]);
@@ -120,13 +121,13 @@ RC_GTEST_PROP(refinement, keeps_the_bound_exactly_and_covers_every_cell, ()) {
                             orient(corners[2], corners[0], p) >= 0;
         if (!inside || !raster.is_valid(p)) continue;
         covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.cols) + static_cast<std::size_t>(x)] = 1;
-        RC_ASSERT(!exceeds_exactly(corners, heights, p, raster.at(p), c.threshold));
+        RC_ASSERT(!geom::exceeds_exactly(corners, heights, p, raster.at(p), c.threshold));
       }
     }
   }
   for (std::int32_t y = 0; y + 1 < raster.rows; ++y) {
     for (std::int32_t x = 0; x + 1 < raster.cols; ++x) {
-      const int valid = std::popcount(valid_corners(raster, x, y));
+      const int valid = std::popcount(grid::valid_corners(raster, x, y));
       if (valid < 3) continue;
       cells_area2 += valid == 4 ? 2 : 1;
       for (Point p : {Point{x, y}, Point{x + 1, y}, Point{x + 1, y + 1}, Point{x, y + 1}}) {
@@ -146,21 +147,21 @@ TEST(refinement, a_plane_needs_no_vertex_but_the_corners) {
   for (std::int32_t y = 0; y < 30; ++y)
     for (std::int32_t x = 0; x < 40; ++x)
       field.samples[static_cast<std::size_t>(40 * y + x)] = static_cast<float>(3 * x - 7 * y) / 4.0f;
-  auto domain = build_domain(field.raster(), 0, grid_frame(30));
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(30));
   EXPECT_EQ(insert_by_queue(field.raster(), domain->tin, 0, 1000).size(), 0u);
 }
 
 TEST(refinement, next_gain_says_how_many_triangles_will_come) {
   const Field field = testing::random_field(7, 25, 19, Relief::kReal, 0.1);
-  auto domain = build_domain(field.raster(), 0, grid_frame(19));
-  const HeightMetric metric(field.raster(), 0);
-  Refinement refinement(metric, domain->tin);
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(19));
+  const metric::HeightMetric metric(field.raster(), 0);
+  refine::Refinement refinement(metric, domain->tin);
   while (!refinement.done()) {
     const auto expected = refinement.triangle_count() + refinement.next_gain();
     refinement.insert_worst();
     ASSERT_EQ(refinement.triangle_count(), expected);
     std::uint64_t inside = 0;
-    for (Triangle t = 0; t < domain->tin.triangle_count(); ++t) inside += !domain->tin.is_outside(t);
+    for (tin::Triangle t = 0; t < domain->tin.triangle_count(); ++t) inside += !domain->tin.is_outside(t);
     ASSERT_EQ(inside, expected);
   }
 }

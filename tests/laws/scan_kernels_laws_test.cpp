@@ -13,11 +13,11 @@ using testing::Field;
 using testing::Relief;
 using testing::ScanTile;
 
-std::vector<TilePoint> random_points(const TileView& tile, std::mt19937& random, unsigned count) {
-  std::vector<TilePoint> points(count);
-  for (TilePoint& p : points)
-    p = tile_point(static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.cols)),
-                   static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.rows)));
+std::vector<geom::TilePoint> random_points(const geom::TileView& tile, std::mt19937& random, unsigned count) {
+  std::vector<geom::TilePoint> points(count);
+  for (geom::TilePoint& p : points)
+    p = geom::tile_point(static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.cols)),
+                         static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.rows)));
   return points;
 }
 
@@ -26,21 +26,22 @@ void expect_agreement(const Field& field, std::uint32_t seed, int triangle_count
   std::mt19937 random(seed);
   const ScanTile tile(field);
   const auto triangles = random_triangles(tile, random, triangle_count);
-  const std::vector<TilePoint> hints = random_points(tile.view(), random, static_cast<unsigned>(random() % 12));
-  const std::span<const ScanKernels> all = available_kernels();
+  const std::vector<geom::TilePoint> hints = random_points(tile.view(), random, static_cast<unsigned>(random() % 12));
+  const std::span<const geom::ScanKernels> all = geom::available_kernels();
   for (const double threshold : thresholds) {
-    std::vector<ScanHit> expected(triangles.size());
+    std::vector<geom::ScanHit> expected(triangles.size());
     all.back().scan(tile.view(), threshold, triangles, {}, expected.data());
-    for (const ScanKernels& kernels : all) {
-      std::vector<ScanHit> hits(triangles.size());
+    for (const geom::ScanKernels& kernels : all) {
+      std::vector<geom::ScanHit> hits(triangles.size());
       kernels.scan(tile.view(), threshold, triangles, hints, hits.data());
       for (std::size_t i = 0; i < hits.size(); ++i) {
         ASSERT_TRUE(testing::is_same(hits[i], expected[i]))
-            << kernels.name << " threshold " << threshold << " triangle (" << point_of(triangles[i][0]).x << ' '
-            << point_of(triangles[i][0]).y << ") (" << point_of(triangles[i][1]).x << ' ' << point_of(triangles[i][1]).y
-            << ") (" << point_of(triangles[i][2]).x << ' ' << point_of(triangles[i][2]).y << "): " << hits[i].error
-            << " at " << point_of(hits[i].at).x << ' ' << point_of(hits[i].at).y << ", expected " << expected[i].error
-            << " at " << point_of(expected[i].at).x << ' ' << point_of(expected[i].at).y;
+            << kernels.name << " threshold " << threshold << " triangle (" << geom::point_of(triangles[i][0]).x << ' '
+            << geom::point_of(triangles[i][0]).y << ") (" << geom::point_of(triangles[i][1]).x << ' '
+            << geom::point_of(triangles[i][1]).y << ") (" << geom::point_of(triangles[i][2]).x << ' '
+            << geom::point_of(triangles[i][2]).y << "): " << hits[i].error << " at " << geom::point_of(hits[i].at).x
+            << ' ' << geom::point_of(hits[i].at).y << ", expected " << expected[i].error << " at "
+            << geom::point_of(expected[i].at).x << ' ' << geom::point_of(expected[i].at).y;
       }
     }
   }
@@ -63,7 +64,7 @@ RC_GTEST_PROP(scan_kernels_laws, agree_on_large_tiles, ()) {
 }
 
 TEST(scan_kernels_laws, agree_on_the_largest_tile) {
-  Field field = testing::random_field(5, kMaxTileSide, kMaxTileSide, Relief::kRidges, 0.0001);
+  Field field = testing::random_field(5, geom::kMaxTileSide, geom::kMaxTileSide, Relief::kRidges, 0.0001);
   for (std::size_t i = 0; i < field.samples.size(); ++i) field.samples[i] += static_cast<float>(i % 1999) * 0.05f;
   expect_agreement(field, 5, 12, {3, 80, 1000});
 }
@@ -94,28 +95,28 @@ RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
   std::mt19937 random(seed);
   const ScanTile tile(wild_field(seed, *rc::gen::inRange(2, 120), *rc::gen::inRange(2, 120)));
   for (const auto& corners : random_triangles(tile, random, 20)) {
-    const std::array<Point, 3> p{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};
+    const std::array<Point, 3> p{geom::point_of(corners[0]), geom::point_of(corners[1]), geom::point_of(corners[2])};
     const auto area = static_cast<long double>(orient(p[0], p[1], p[2]));
     const auto exact_error = [&](Point s) {
       const long double za = tile.view().at(corners[0]);
       const long double zb = tile.view().at(corners[1]) - za, zc = tile.view().at(corners[2]) - za;
       const auto weight_b = static_cast<long double>(orient(p[2], p[0], s));
       const auto weight_c = static_cast<long double>(orient(p[0], p[1], s));
-      const long double sample = tile.view().at(tile_point(s.x, s.y)) - za;
+      const long double sample = tile.view().at(geom::tile_point(s.x, s.y)) - za;
       return std::abs((zb * weight_b + zc * weight_c) / area - sample);
     };
     const double threshold =
         static_cast<double>(exact_error({(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3}));
-    const ScanPlane plane = ScanPlane::through(tile.view(), corners, threshold);
+    const geom::ScanPlane plane = geom::ScanPlane::through(tile.view(), corners, threshold);
     const double guard = plane.guard;
-    scan_rows(p, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    geom::scan_rows(p, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
       for (std::int32_t x = first; x <= last; ++x) {
         const long double exact = exact_error({x, y});
         const float along = plane.slope_x * static_cast<float>(x - p[0].x);
         const float across = plane.slope_y * static_cast<float>(y - p[0].y);
-        const float computed = std::abs(along + across - (tile.view().at(tile_point(x, y)) - plane.height));
+        const float computed = std::abs(along + across - (tile.view().at(geom::tile_point(x, y)) - plane.height));
         if (exact <= 2 * static_cast<long double>(threshold)) RC_ASSERT(std::abs(exact - computed) <= guard);
-        if (exact > threshold && guard <= threshold) RC_ASSERT(computed > scan_floor(threshold, plane.guard));
+        if (exact > threshold && guard <= threshold) RC_ASSERT(computed > geom::scan_floor(threshold, plane.guard));
         if (computed > threshold + guard) RC_ASSERT(exact > threshold);
       }
     });
@@ -129,8 +130,8 @@ RC_GTEST_PROP(scan_kernels_laws, blocks_hold_their_smallest_and_largest, ()) {
                                       *rc::gen::element(0.0, 0.1, 3.0)));
   const std::vector<float> low = tile.low(), high = tile.high();
   const std::uint64_t nodata = tile.nodata();
-  const float most = tile.fill(available_kernels().back());
-  for (const ScanKernels& kernels : available_kernels()) {
+  const float most = tile.fill(geom::available_kernels().back());
+  for (const geom::ScanKernels& kernels : geom::available_kernels()) {
     RC_ASSERT(tile.fill(kernels) == most);
     RC_ASSERT(tile.low() == low);
     RC_ASSERT(tile.high() == high);
@@ -160,7 +161,7 @@ RC_GTEST_PROP(scan_kernels_laws, rows_agree_to_the_bit, ()) {
       expected_at = x;
     }
   }
-  for (const ScanKernels& kernels : available_kernels()) {
+  for (const geom::ScanKernels& kernels : geom::available_kernels()) {
     double worst = start;
     std::int32_t at = -7;
     RC_ASSERT(kernels.scan_row(samples.data(), count, base, slope, offset, worst, at) == (expected_at >= 0));

@@ -60,7 +60,7 @@ RC_GTEST_PROP(small_voids, are_filled_as_fill_nodata_does_and_nothing_else_is, (
   const int side = *rc::gen::inRange(1, 12);
   const std::vector<bool> small = find_small(given, side);
   OwnedHeightField filled = given, everywhere = given;
-  const VoidCount count = fill_small_voids(filled, side);
+  const VoidCount count = grid::fill_small_voids(filled, side);
   fill_nodata(everywhere, side);
   std::uint64_t of_small = 0, missing = 0;
   for (std::size_t k = 0; k < small.size(); ++k) {
@@ -76,10 +76,10 @@ RC_GTEST_PROP(small_voids, look_the_same_through_every_window, ()) {
   const OwnedHeightField given = any_holes();
   const int side = *rc::gen::inRange(1, 12), cols = given.cols, rows = given.rows;
   OwnedHeightField filled = given;
-  const VoidCount count = fill_small_voids(filled, side);
+  const VoidCount count = grid::fill_small_voids(filled, side);
   const ArraySource array(given.view());
   const HeightField streamed = testing::with_source(given.view(), array);
-  const auto source = without_small_voids(*rc::gen::element(true, false) ? streamed : given.view(), side);
+  const auto source = grid::without_small_voids(*rc::gen::element(true, false) ? streamed : given.view(), side);
   const int col = *rc::gen::inRange(0, cols), row = *rc::gen::inRange(0, rows);
   const int width = *rc::gen::inRange(1, cols - col + 1), height = *rc::gen::inRange(1, rows - row + 1);
   const int stride = width + *rc::gen::inRange(0, 3);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(small_voids, look_the_same_through_every_window, ()) {
       RC_ASSERT(is_right);
     }
   }
-  const auto counted = count_voids(streamed, side);
+  const auto counted = grid::count_voids(streamed, side);
   RC_ASSERT(counted.has_value());
   RC_ASSERT(counted->filled == count.filled && counted->left == count.left && counted->least == count.least &&
             counted->most == count.most);
@@ -108,7 +108,7 @@ TEST(SmallVoids, TellHowHighTheLandAroundThoseThatAreLeftLies) {
     field.samples[static_cast<std::size_t>(at)] = NAN;
   field.samples[9 * 3 + 4] = 420;
   field.samples[7] = 3;
-  const VoidCount count = fill_small_voids(field, 2);
+  const VoidCount count = grid::fill_small_voids(field, 2);
   EXPECT_EQ(count.filled, 1u);
   EXPECT_EQ(count.left, 4u);
   EXPECT_EQ(count.least, 420) << "the sea's shore lies lower";

@@ -76,12 +76,12 @@ RC_GTEST_PROP(SolidLaws, ClosedAndAsLargeAsWhatLiesUnderTheSurface, ()) {
 RC_GTEST_PROP(SolidLaws, PrintTilesAreTheWholeAndKeepTheBound, ()) {
   auto field = any_field(40);
   const double bound = *rc::gen::element(0.5, 5.0, 30.0);
-  PrintTileOptions options;
+  mesh::PrintTileOptions options;
   options.columns = *rc::gen::inRange(1, 4);
   options.rows = *rc::gen::inRange(1, 4);
   options.dovetail = *rc::gen::arbitrary<bool>();
   options.gap = *rc::gen::element(0.0, 0.0, 0.11);
-  const auto plan = PrintTilePlan::make(field.cols, field.rows, options);
+  const auto plan = mesh::PrintTilePlan::make(field.cols, field.rows, options);
   if (!plan) RC_DISCARD("too few samples");
   SimplifyOptions simplify_options{.goals = {.max_error = bound}, .output = {.float32_positions = false}};
   simplify_options.features.breaklines.lines = plan->lines(simplify_options.features.breaklines.affine);
@@ -93,7 +93,7 @@ RC_GTEST_PROP(SolidLaws, PrintTilesAreTheWholeAndKeepTheBound, ()) {
   double volume = 0;
   Mesh tops;
   std::size_t triangles = 0;
-  for (Mesh& tile : cut_print_tiles(simplified->mesh, view.frame, *plan)) {
+  for (Mesh& tile : mesh::cut_print_tiles(simplified->mesh, view.frame, *plan)) {
     if (tile.triangles.empty()) continue;
     place_mesh(tile, placement);
     const std::size_t corners = tile.triangles.size();
@@ -125,11 +125,11 @@ RC_GTEST_PROP(SolidLaws, PrintTilesAreTheWholeAndKeepTheBound, ()) {
 }
 
 TEST(PrintTilePlan, EverySampleIsInOnePrintTileAndTabsReachOver) {
-  PrintTileOptions options;
+  mesh::PrintTileOptions options;
   options.columns = 2;
   options.rows = 3;
   options.dovetail = true;
-  const auto plan = PrintTilePlan::make(101, 121, options);
+  const auto plan = mesh::PrintTilePlan::make(101, 121, options);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->lines({0, 1, 0, 0, 0, 1}).size(), 3u);
   EXPECT_EQ(plan->tile_at(0.5, 0.5), 0);
@@ -140,7 +140,7 @@ TEST(PrintTilePlan, EverySampleIsInOnePrintTileAndTabsReachOver) {
   EXPECT_EQ(plan->tile_at(25, 42), 0);
   EXPECT_EQ(plan->tile_at(3, 42), 2);
   options.gap = 0.5;
-  const auto apart = PrintTilePlan::make(101, 121, options);
+  const auto apart = mesh::PrintTilePlan::make(101, 121, options);
   ASSERT_TRUE(apart);
   EXPECT_EQ(apart->lines({0, 1, 0, 0, 0, 1}).size(), 6u);
   EXPECT_EQ(apart->tile_at(50.2, 3), std::nullopt);
@@ -149,17 +149,17 @@ TEST(PrintTilePlan, EverySampleIsInOnePrintTileAndTabsReachOver) {
 }
 
 TEST(PrintTilePlan, RefusesWhatIsTooNarrow) {
-  PrintTileOptions options;
+  mesh::PrintTileOptions options;
   options.columns = 5;
-  EXPECT_FALSE(PrintTilePlan::make(8, 8, options));
-  EXPECT_TRUE(PrintTilePlan::make(11, 8, options));
+  EXPECT_FALSE(mesh::PrintTilePlan::make(8, 8, options));
+  EXPECT_TRUE(mesh::PrintTilePlan::make(11, 8, options));
   options.dovetail = true;
-  const auto narrow = PrintTilePlan::make(50, 50, options);
+  const auto narrow = mesh::PrintTilePlan::make(50, 50, options);
   ASSERT_FALSE(narrow);
   EXPECT_EQ(narrow.error().kind, ErrorKind::kUsage);
   EXPECT_NE(narrow.error().message.find("12 cells"), std::string::npos);
   options.gap = 10;
-  EXPECT_FALSE(PrintTilePlan::make(500, 500, options));
+  EXPECT_FALSE(mesh::PrintTilePlan::make(500, 500, options));
 }
 
 }  // namespace

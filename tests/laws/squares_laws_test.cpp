@@ -27,17 +27,17 @@ using testing::is_same;
 using testing::refined;
 using testing::Relief;
 
-FitOptions towards(double threshold, std::uint64_t most) {
-  FitOptions options{.threshold = threshold, .threads = 2, .vertices_are_free = *rc::gen::arbitrary<bool>()};
+fit::FitOptions towards(double threshold, std::uint64_t most) {
+  fit::FitOptions options{.threshold = threshold, .threads = 2, .vertices_are_free = *rc::gen::arbitrary<bool>()};
   options.min_shape = *rc::gen::element(0.0, 0.1);
   options.patch_side = *rc::gen::element(0, 1, 5, 16, 40);
-  options.squares = SquareGoal{most, kNoBudget, *rc::gen::inRange(0, 4)};
+  options.squares = fit::SquareGoal{most, fit::kNoBudget, *rc::gen::inRange(0, 4)};
   return options;
 }
 
-std::size_t triangles_of(const Triangulation& tin) {
+std::size_t triangles_of(const tin::Triangulation& tin) {
   std::size_t count = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) count += tin.is_outside(t) ? 0 : 1;
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) count += tin.is_outside(t) ? 0 : 1;
   return count;
 }
 
@@ -47,9 +47,9 @@ RC_GTEST_PROP(squares, keep_the_bound_and_the_domain, ()) {
   auto tin = refined(field, threshold / *rc::gen::element(1.0, 4.0));
   RC_PRE(tin.has_value());
   const std::int64_t outside = testing::outside_area2(*tin);
-  const FitOptions options = towards(threshold, *rc::gen::inRange<std::uint64_t>(1, 400));
-  const auto fitted = *fit(field.raster(), std::move(*tin), options);
-  const std::int32_t steps = options.vertices_are_free ? kLatticeSteps : 1;
+  const fit::FitOptions options = towards(threshold, *rc::gen::inRange<std::uint64_t>(1, 400));
+  const auto fitted = *fit::fit(field.raster(), std::move(*tin), options);
+  const std::int32_t steps = options.vertices_are_free ? grid::kLatticeSteps : 1;
   const auto side = [&](std::int32_t samples) { return (samples - 1) * steps + 1; };
   const std::string unsound =
       testing::verify_triangulation(fitted.tin, side(field.cols), side(field.rows), testing::Edges::kAny);
@@ -65,11 +65,11 @@ RC_GTEST_PROP(squares, are_the_same_on_any_number_of_threads, ()) {
   const Field field = testing::any_field();
   const auto tin = refined(field, 1);
   RC_PRE(tin.has_value());
-  FitOptions options = towards(4, *rc::gen::inRange<std::uint64_t>(1, 400));
+  fit::FitOptions options = towards(4, *rc::gen::inRange<std::uint64_t>(1, 400));
   options.threads = 1;
-  const auto once = *fit(field.raster(), *refined(field, 1), options);
+  const auto once = *fit::fit(field.raster(), *refined(field, 1), options);
   options.threads = 3;
-  const auto again = *fit(field.raster(), *refined(field, 1), options);
+  const auto again = *fit::fit(field.raster(), *refined(field, 1), options);
   RC_ASSERT(is_same(once.tin, again.tin));
   RC_ASSERT(once.lattice.heights.size() == again.lattice.heights.size());
   for (std::size_t v = 0; v < once.lattice.heights.size(); ++v)
@@ -79,11 +79,11 @@ RC_GTEST_PROP(squares, are_the_same_on_any_number_of_threads, ()) {
 
 TEST(squares, patches_keep_the_budget_and_nearly_reach_the_error_of_one) {
   const Field field = hills(300, 240);
-  FitOptions options{.threshold = 8, .threads = 2, .min_shape = 0.1, .vertices_are_free = true};
-  options.squares = SquareGoal{900, kNoBudget, 6};
+  fit::FitOptions options{.threshold = 8, .threads = 2, .min_shape = 0.1, .vertices_are_free = true};
+  options.squares = fit::SquareGoal{900, fit::kNoBudget, 6};
   const auto squares = [&](std::int32_t side) {
     options.patch_side = side;
-    const auto fitted = *fit(field.raster(), *refined(field, 0.3), options);
+    const auto fitted = *fit::fit(field.raster(), *refined(field, 0.3), options);
     EXPECT_LE(triangles_of(fitted.tin), 900u) << side;
     EXPECT_GE(triangles_of(fitted.tin), 891u) << side;
     return testing::sum_of_squares(field.raster(), fitted);
@@ -93,9 +93,9 @@ TEST(squares, patches_keep_the_budget_and_nearly_reach_the_error_of_one) {
 
 TEST(squares, budgets_of_vertices_are_kept) {
   const Field field = hills(120, 90);
-  FitOptions options{.threshold = 8, .threads = 1, .vertices_are_free = true};
-  options.squares = SquareGoal{kNoBudget, 150, 3};
-  const auto fitted = *fit(field.raster(), *refined(field, 0.3), options);
+  fit::FitOptions options{.threshold = 8, .threads = 1, .vertices_are_free = true};
+  options.squares = fit::SquareGoal{fit::kNoBudget, 150, 3};
+  const auto fitted = *fit::fit(field.raster(), *refined(field, 0.3), options);
   EXPECT_LE(fitted.tin.vertex_count(), 150u);
   EXPECT_GE(fitted.tin.vertex_count(), 147u);
 }
@@ -104,40 +104,40 @@ RC_GTEST_PROP(squares, insertion_leaves_a_sound_patch, ()) {
   const Field field = testing::any_field();
   const auto tin = refined(field, 7.3);
   RC_PRE(tin.has_value());
-  const VertexLattice lattice;
-  PatchCutter::Scratch scratch;
-  std::vector<Vertex> vertices;
-  Patch patch = PatchCutter(field.raster(), *tin, lattice, {std::max(field.cols, field.rows), 0}, {}, 1)
-                    .cut(0, scratch, vertices);
+  const grid::VertexLattice lattice;
+  fit::PatchCutter::Scratch scratch;
+  std::vector<tin::Vertex> vertices;
+  fit::Patch patch = fit::PatchCutter(field.raster(), *tin, lattice, {std::max(field.cols, field.rows), 0}, {}, 1)
+                         .cut(0, scratch, vertices);
   RC_PRE(patch.face_count() > 0);
   std::int64_t area = 0;
-  const auto area_of = [&](Patch::Id f) {
+  const auto area_of = [&](fit::Patch::Id f) {
     const auto& [a, b, c] = patch.face(f).corners;
-    return area2(patch.at(a), patch.at(b), patch.at(c));
+    return fit::area2(patch.at(a), patch.at(b), patch.at(c));
   };
-  for (Patch::Id f = 0; f < patch.face_count(); ++f) area += area_of(f);
-  const auto face = *rc::gen::inRange<Patch::Id>(0, static_cast<Patch::Id>(patch.face_count()));
+  for (fit::Patch::Id f = 0; f < patch.face_count(); ++f) area += area_of(f);
+  const auto face = *rc::gen::inRange<fit::Patch::Id>(0, static_cast<fit::Patch::Id>(patch.face_count()));
   const auto [a, b, c] = patch.face(face).corners;
-  const FitCorner p = patch.at(a), q = patch.at(b), r = patch.at(c);
+  const fit::FitCorner p = patch.at(a), q = patch.at(b), r = patch.at(c);
   const bool is_on_edge = *rc::gen::arbitrary<bool>();
-  if (is_on_edge && Patch::is_border(patch.face(face).links[0])) return;
+  if (is_on_edge && fit::Patch::is_border(patch.face(face).links[0])) return;
   // Corners are samples: halves and thirds of their distances are (almost) lattice points.
-  const FitCorner place = is_on_edge ? FitCorner{(p.x + q.x) / 2, (p.y + q.y) / 2, 1}
-                                     : FitCorner{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, 1};
+  const fit::FitCorner place = is_on_edge ? fit::FitCorner{(p.x + q.x) / 2, (p.y + q.y) / 2, 1}
+                                          : fit::FitCorner{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, 1};
   const std::size_t before = patch.face_count();
-  const Patch::Id v = is_on_edge ? patch.insert(place, face, 0) : patch.insert(place, face);
+  const fit::Patch::Id v = is_on_edge ? patch.insert(place, face, 0) : patch.insert(place, face);
   RC_ASSERT(patch.face_count() == before + 2);
-  Patch::Star star;
+  fit::Patch::Star star;
   patch.find_star(v, star);
   RC_ASSERT(star.closed && star.faces.size() == (is_on_edge ? 4u : 3u));
   std::int64_t after = 0;
-  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+  for (fit::Patch::Id f = 0; f < patch.face_count(); ++f) {
     RC_ASSERT(area_of(f) > 0);
     after += area_of(f);
     for (unsigned k = 0; k < 3; ++k) {
-      const Patch::Link link = patch.face(f).links[k];
-      if (!Patch::is_border(link))
-        RC_ASSERT(patch.face(Patch::triangle_of(link)).links[Patch::edge_of(link)] == (f << 2 | k));
+      const fit::Patch::Link link = patch.face(f).links[k];
+      if (!fit::Patch::is_border(link))
+        RC_ASSERT(patch.face(fit::Patch::triangle_of(link)).links[fit::Patch::edge_of(link)] == (f << 2 | k));
     }
   }
   RC_ASSERT(after == area);

@@ -12,14 +12,14 @@
 namespace scarp::testing {
 
 struct StartedTile {
-  Tile tile;
-  TileMesh mesh;
+  refine::Tile tile;
+  tin::TileMesh mesh;
 };
 
 /// Returns false without surface cells.
 inline bool start(const Field& field, StartedTile& started) {
   return started.tile.load(field.view(), {0, 0, field.cols, field.rows}) &&
-         start_tile(started.tile, {}, started.mesh) &&
+         refine::start_tile(started.tile, {}, started.mesh) &&
          outside_area2(started.mesh) < 2 * std::int64_t{field.cols - 1} * (field.rows - 1);
 }
 

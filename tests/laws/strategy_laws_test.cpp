@@ -191,23 +191,23 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
 // The plain metric measures one field with scale 1 under one bound; the general metric must agree.
 RC_GTEST_PROP(metrics, the_general_one_agrees_with_the_plain_one, ()) {
   const Field field = any_field(22);
-  const Raster raster = field.raster();
-  auto plain = build_domain(raster, 0, grid_frame(field.rows)),
-       general = build_domain(raster, 0, grid_frame(field.rows));
+  const grid::Raster raster = field.raster();
+  auto plain = refine::build_domain(raster, 0, grid_frame(field.rows)),
+       general = refine::build_domain(raster, 0, grid_frame(field.rows));
   RC_PRE(plain.has_value());
   const double threshold = *rc::gen::element(0.0, 0.25, 1.0, 2.0, 7.3);
   const EdgeRule rule = *rc::gen::arbitrary<bool>() ? testing::any_edge_rule() : EdgeRule();
-  const HeightMetric height_metric(raster, threshold);
-  MetricSettings settings{raster, {{field.samples.data(), 1}}};
+  const metric::HeightMetric height_metric(raster, threshold);
+  metric::MetricSettings settings{raster, {{field.samples.data(), 1}}};
   settings.threshold = settings.goal = threshold;
-  const SampleMetric sample_metric(settings);
-  Refinement first(height_metric, plain->tin, Algorithm::kHeap, rule);
-  Refinement second(sample_metric, general->tin, Algorithm::kHeap, rule);
+  const metric::SampleMetric sample_metric(settings);
+  refine::Refinement first(height_metric, plain->tin, Algorithm::kHeap, rule);
+  refine::Refinement second(sample_metric, general->tin, Algorithm::kHeap, rule);
   while (!first.done() && !second.done()) {
     RC_ASSERT(first.worst_error() == second.worst_error());
     first.insert_worst();
     second.insert_worst();
-    const auto last = static_cast<Vertex>(plain->tin.vertex_count() - 1);
+    const auto last = static_cast<tin::Vertex>(plain->tin.vertex_count() - 1);
     RC_ASSERT(plain->tin.point(last) == general->tin.point(last));
   }
   RC_ASSERT(first.done() == second.done());
@@ -266,9 +266,9 @@ TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
   options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
   const auto result = simplify_by_paper(field.view(), options);
   ASSERT_TRUE(result);
-  const auto values = measure_feature(field.raster(), options.strategy.importance);
+  const auto values = metric::measure_feature(field.raster(), options.strategy.importance);
   std::set<std::pair<int, int>> expected{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
-  for (Point p : rank_samples(field.raster(), values)) {
+  for (Point p : metric::rank_samples(field.raster(), values)) {
     if (expected.size() == 60) break;
     expected.insert({p.x, p.y});
   }
@@ -284,7 +284,8 @@ TEST(one_pass, leaves_out_the_samples_that_a_script_ignores) {
   const Field field = testing::random_field(5, 40, 31, Relief::kReal);
   PaperOptions options{.goals = {.max_vertices = 60}};
   options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
-  const auto ranked = rank_samples(field.raster(), measure_feature(field.raster(), options.strategy.importance));
+  const auto ranked =
+      metric::rank_samples(field.raster(), metric::measure_feature(field.raster(), options.strategy.importance));
   std::vector<SampleAt> left_out;
   for (std::size_t k = 0; k < 20; ++k) left_out.push_back({ranked[k].x, ranked[k].y});
   options.tolerances.ignored = left_out;
@@ -367,14 +368,16 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
   }
   using Feature = Importance::Feature;
   for (const Feature feature : {Feature::kLocal4, Feature::kLocal8, Feature::kCurvature}) {
-    for (float value : measure_feature(plane.raster(), {false, feature})) EXPECT_EQ(value, 0);
+    for (float value : metric::measure_feature(plane.raster(), {false, feature})) EXPECT_EQ(value, 0);
   }
   // z_xx = 2, z_xy = 3, z_yy = 0; the mean of the neighbours lies 1/2 above in 4, (2 + 0 + 8 − 4) / 8 in 8 directions.
-  EXPECT_FLOAT_EQ(measure_feature(bowl.raster(), {false, Feature::kCurvature})[4 * 9 + 4], std::sqrt(4.0f + 18.0f));
-  EXPECT_FLOAT_EQ(measure_feature(bowl.raster(), {false, Feature::kLocal4})[4 * 9 + 4], 0.5f);
-  EXPECT_FLOAT_EQ(measure_feature(bowl.raster(), {false, Feature::kLocal8})[4 * 9 + 4], 0.75f);
-  EXPECT_FLOAT_EQ(measure_feature(bowl.raster(), {false, Feature::kLocal4, Importance::Damping::kPlusOne})[4 * 9 + 4],
-                  1.5f);
+  EXPECT_FLOAT_EQ(metric::measure_feature(bowl.raster(), {false, Feature::kCurvature})[4 * 9 + 4],
+                  std::sqrt(4.0f + 18.0f));
+  EXPECT_FLOAT_EQ(metric::measure_feature(bowl.raster(), {false, Feature::kLocal4})[4 * 9 + 4], 0.5f);
+  EXPECT_FLOAT_EQ(metric::measure_feature(bowl.raster(), {false, Feature::kLocal8})[4 * 9 + 4], 0.75f);
+  EXPECT_FLOAT_EQ(
+      metric::measure_feature(bowl.raster(), {false, Feature::kLocal4, Importance::Damping::kPlusOne})[4 * 9 + 4],
+      1.5f);
 }
 
 /// A spike next to a corner, and a lower bump far from corners: errors rank the spike first, errors times distance the

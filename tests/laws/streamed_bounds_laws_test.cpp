@@ -86,34 +86,34 @@ void expect_kept(const Measurement& m) {
 }
 
 /// Refines in strips of tiles with that side.
-Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
+Result<std::optional<pieces::Tiled>> refine(const Scene& scene, std::int32_t side, const lines::FieldLines* lines) {
   const double most = scene.options.goals.max_error.value_or(HUGE_VAL),
                threshold = scene.options.goals.max_error.value_or(0);
-  const SourceBounds bounds(scene.tolerances, most, {});
-  StripTotals fits;
-  TiledOptions tiles{.threshold = threshold, .threads = scene.options.run.threads, .tile_side = side};
-  work_by_strips(Recipe(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
-                 fits, tiles);
-  return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
+  const metric::SourceBounds bounds(scene.tolerances, most, {});
+  pieces::StripTotals fits;
+  pieces::TiledOptions tiles{.threshold = threshold, .threads = scene.options.run.threads, .tile_side = side};
+  pieces::work_by_strips(pieces::Recipe(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr,
+                         &bounds, threshold, fits, tiles);
+  return pieces::refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
 }
 
-VertexLattice places_of(const Tiled& tiled) {
+grid::VertexLattice places_of(const pieces::Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
 RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_strips, ()) {
   const Scene scene;
-  const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
+  const auto domain = refine::build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
   const auto made = refine(scene, *rc::gen::element(8, 16, 31), nullptr);
   RC_ASSERT(made.has_value() == domain.has_value());
   if (!made) return;
-  const Tiled& tiled = **made;
-  const Triangulation& tin = tiled.domain.tin;
+  const pieces::Tiled& tiled = **made;
+  const tin::Triangulation& tin = tiled.domain.tin;
   const std::string unsound = testing::verify_triangulation(
       tin, (scene.field.cols - 1) * tiled.steps + 1, (scene.field.rows - 1) * tiled.steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
-  const Mesh mesh =
-      freeze(tin, {SampleHeights(scene.streamed, tiled.heights), places_of(tiled), scene.field.view().frame, false});
+  const Mesh mesh = pieces::freeze(
+      tin, {pieces::SampleHeights(scene.streamed, tiled.heights), places_of(tiled), scene.field.view().frame, false});
   expect_kept(judged(scene.field.view(), mesh, scene.promised()));
 }
 
@@ -127,14 +127,15 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
     }
   }
   const std::int32_t side = *rc::gen::element(8, 16, 31);
-  const auto lines = prepare_lines(scene.streamed, constraints, {}, scene.options.goals.max_error.value_or(50) / 2, 1,
-                                   shared_rows(scene.streamed, side));
+  const auto lines =
+      lines::prepare_lines(scene.streamed, constraints, {}, scene.options.goals.max_error.value_or(50) / 2, 1,
+                           pieces::shared_rows(scene.streamed, side));
   RC_PRE(lines.has_value());
   const auto made = refine(scene, side, &*lines);
   RC_PRE(made.has_value());
   const HeightField edited = lines->apply(scene.streamed);
-  const Mesh mesh =
-      freeze((*made)->domain.tin, {SampleHeights(edited, {}), places_of(**made), scene.field.view().frame, false});
+  const Mesh mesh = pieces::freeze(
+      (*made)->domain.tin, {pieces::SampleHeights(edited, {}), places_of(**made), scene.field.view().frame, false});
   expect_kept(judged(edited, mesh, scene.promised()));
 }
 
@@ -212,17 +213,17 @@ RC_GTEST_PROP(streamed_bounds, of_a_border_are_kept_by_what_splits_it, ()) {
   const Field field = testing::any_field(60);
   const std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
   const std::int32_t y = *rc::gen::inRange(0, field.rows);
-  const BorderLine line{0, y, field.cols - 1, false};
+  const pieces::BorderLine line{0, y, field.cols - 1, false};
   const double threshold = *rc::gen::element(0.5, 7.3, 100.0);
   std::vector<float> own(bounds.begin() + std::ptrdiff_t{y} * field.cols,
                          bounds.begin() + (std::ptrdiff_t{y} + 1) * field.cols);
   for (float& bound : own) bound = std::min(bound, static_cast<float>(threshold));
-  std::vector<std::int32_t> kept = *simplify_border(field.view(), line, threshold);
-  const auto more = *split_border(field.view(), line, kept, LineBound(own));
+  std::vector<std::int32_t> kept = *pieces::simplify_border(field.view(), line, threshold);
+  const auto more = *pieces::split_border(field.view(), line, kept, pieces::LineBound(own));
   for (const std::int32_t step : more) RC_ASSERT(std::find(kept.begin(), kept.end(), step) == kept.end());
   kept.insert(kept.end(), more.begin(), more.end());
   std::sort(kept.begin(), kept.end());
-  RC_ASSERT(split_border(field.view(), line, kept, LineBound(own))->empty());
+  RC_ASSERT(pieces::split_border(field.view(), line, kept, pieces::LineBound(own))->empty());
 }
 
 /// Memory for several strips.

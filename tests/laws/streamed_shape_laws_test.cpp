@@ -31,7 +31,7 @@ RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_
   const Field field = testing::any_field();
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
-  Band rows(streamed, field.rows);
+  grid::Band rows(streamed, field.rows);
   for (int k = 0; k < 5; ++k) {
     const auto first = *rc::gen::inRange(0, field.rows);
     rows.hold(first, *rc::gen::inRange(0, field.rows - first) + 1);
@@ -49,17 +49,17 @@ RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_
 
 /// A mesh with only the outline's samples, all lattice points with heights.
 struct Start {
-  Triangulation tin;
-  VertexLattice lattice{kLatticeSteps, {}, {}};
+  tin::Triangulation tin;
+  grid::VertexLattice lattice{grid::kLatticeSteps, {}, {}};
 };
 
 std::optional<Start> outline_of(const Field& field) {
-  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
   Start start{std::move(domain->tin)};
-  for (Vertex v = 0; v < start.tin.vertex_count(); ++v)
+  for (tin::Vertex v = 0; v < start.tin.vertex_count(); ++v)
     start.lattice.heights.push_back(field.raster().at(start.tin.point(v)));
-  start.tin.scale(kLatticeSteps);
+  start.tin.scale(grid::kLatticeSteps);
   return start;
 }
 
@@ -73,7 +73,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   const Frame frame = grid_frame(field.rows);
-  ShapeTask task{{}, frame.affine, *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0)};
+  shape::ShapeTask task{{}, frame.affine, *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0)};
   task.goals.min_angle = *rc::gen::element(0.0, 15.0, 20.0);
   if (*rc::gen::arbitrary<bool>()) task.goals.max_edge = *rc::gen::element(0.7, 2.5, 7.0);
   if (*rc::gen::arbitrary<bool>()) task.goals.grade = *rc::gen::element(0.01, 0.1, 0.5);
@@ -81,7 +81,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   task.rows_at_once = *rc::gen::element(4, 7, 16);
   std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
   const ArrayBounds tolerances(bounds, field.cols);
-  const SourceBounds by_sample(tolerances, task.threshold, {});
+  const metric::SourceBounds by_sample(tolerances, task.threshold, {});
   if (*rc::gen::arbitrary<bool>()) {
     task.source_bounds = &by_sample;
   } else {
@@ -99,12 +99,12 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
     return {};
   };
   const auto outside = testing::outside_area2(start->tin);
-  const auto work = refine_shapes({nullptr, field.cols, field.rows}, start->tin, start->lattice, task);
+  const auto work = shape::refine_shapes({nullptr, field.cols, field.rows}, start->tin, start->lattice, task);
   RC_ASSERT(work.has_value());
-  RC_ASSERT(testing::verify_triangulation(start->tin, (field.cols - 1) * kLatticeSteps + 1,
-                                          (field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny) == "");
+  RC_ASSERT(testing::verify_triangulation(start->tin, (field.cols - 1) * grid::kLatticeSteps + 1,
+                                          (field.rows - 1) * grid::kLatticeSteps + 1, testing::Edges::kAny) == "");
   RC_ASSERT(testing::outside_area2(start->tin) == outside);
-  const Mesh mesh = freeze(start->tin, {SampleHeights(streamed, {}), start->lattice, frame, false});
+  const Mesh mesh = pieces::freeze(start->tin, {pieces::SampleHeights(streamed, {}), start->lattice, frame, false});
   for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
   MeasureOptions judge;
   judge.tolerance = bounds;
@@ -115,7 +115,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(least >= 0 && least <= static_cast<double>(mesh.triangle_count()));
-  const ShapeReport shape = report_shapes(mesh, task.goals, {});
+  const ShapeReport shape = shape::report_shapes(mesh, task.goals, {});
   RC_ASSERT(shape.below == 0u);
   if (task.goals.max_edge) RC_ASSERT(shape.longest_edge <= *task.goals.max_edge);
 }
@@ -125,29 +125,29 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
   const double threshold = testing::any_threshold();
   auto tin = testing::refined(field, threshold);
   RC_PRE(tin.has_value());
-  VertexLattice lattice{kLatticeSteps, {}, {}};
-  for (Vertex v = 0; v < tin->vertex_count(); ++v) lattice.heights.push_back(field.raster().at(tin->point(v)));
-  tin->scale(kLatticeSteps);
-  FitOptions options;
+  grid::VertexLattice lattice{grid::kLatticeSteps, {}, {}};
+  for (tin::Vertex v = 0; v < tin->vertex_count(); ++v) lattice.heights.push_back(field.raster().at(tin->point(v)));
+  tin->scale(grid::kLatticeSteps);
+  fit::FitOptions options;
   options.threshold = threshold;
   options.threads = *rc::gen::element(1, 2);
   options.vertices_are_free = true;
-  if (*rc::gen::arbitrary<bool>()) options.depth = kHighDepth;
+  if (*rc::gen::arbitrary<bool>()) options.depth = fit::kHighDepth;
   options.most_side = *rc::gen::element(0, 5, 20);
   options.most_window = *rc::gen::element<std::int64_t>(0, 100, 1000);
   const auto copy = [&] {
-    Triangulation::Arrays arrays;
-    for (Vertex v = 0; v < tin->vertex_count(); ++v) arrays.points.push_back(tin->point(v));
-    for (HalfEdge h = 0; h < 3 * tin->triangle_count(); ++h) {
+    tin::Triangulation::Arrays arrays;
+    for (tin::Vertex v = 0; v < tin->vertex_count(); ++v) arrays.points.push_back(tin->point(v));
+    for (tin::HalfEdge h = 0; h < 3 * tin->triangle_count(); ++h) {
       arrays.corners.push_back(tin->origin(h));
       arrays.twins.push_back(tin->twin(h));
     }
-    for (Triangle t = 0; t < tin->triangle_count(); ++t) {
-      std::uint8_t flags = tin->is_outside(t) ? Triangulation::Arrays::kOutside : 0;
+    for (tin::Triangle t = 0; t < tin->triangle_count(); ++t) {
+      std::uint8_t flags = tin->is_outside(t) ? tin::Triangulation::Arrays::kOutside : 0;
       for (unsigned k = 0; k < 3; ++k) flags |= static_cast<std::uint8_t>(tin->is_constrained(3 * t + k) << k);
       arrays.flags.push_back(flags);
     }
-    return Triangulation(std::move(arrays));
+    return tin::Triangulation(std::move(arrays));
   };
   std::vector<float> bounds;
   if (*rc::gen::arbitrary<bool>()) {
@@ -155,15 +155,15 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
     for (float& bound : bounds) bound = std::max(bound, std::nextafter(static_cast<float>(threshold), kNoBound));
   }
   options.bounds = bounds;
-  const auto whole = fit(field.raster(), copy(), lattice, options);
+  const auto whole = fit::fit(field.raster(), copy(), lattice, options);
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
-  FitOptions by_windows = options;
+  fit::FitOptions by_windows = options;
   by_windows.bounds = {};
   const ArrayBounds tolerances(bounds, field.cols);
-  const SourceBounds by_sample(tolerances, HUGE_VAL, {});
-  read_windows(streamed, {}, by_windows, bounds.empty() ? nullptr : &by_sample);
-  const auto read = fit({nullptr, field.cols, field.rows}, copy(), lattice, by_windows);
+  const metric::SourceBounds by_sample(tolerances, HUGE_VAL, {});
+  pieces::read_windows(streamed, {}, by_windows, bounds.empty() ? nullptr : &by_sample);
+  const auto read = fit::fit({nullptr, field.cols, field.rows}, copy(), lattice, by_windows);
   RC_ASSERT(whole.has_value() && read.has_value());
   RC_ASSERT(testing::is_same(whole->tin, read->tin));
   RC_ASSERT(whole->counts.removed == read->counts.removed);
@@ -196,7 +196,7 @@ TEST(streamed_shapes, take_no_more_triangles_than_in_memory_at_the_public_door) 
   const HeightField streamed = with_source(field.view(), source);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options = in_little_memory(effort);
-    ASSERT_LT(rows_at_once(streamed, {options.run.memory.limit, 0, 0}), 300);
+    ASSERT_LT(pieces::rows_at_once(streamed, {options.run.memory.limit, 0, 0}), 300);
     const auto result = simplify(streamed, options);
     ASSERT_TRUE(result) << result.error().message;
     const Measurement judged = *measure(field.view(), result->mesh);

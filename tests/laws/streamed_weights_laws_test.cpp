@@ -105,7 +105,9 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_kept_by_the_mesh, ()) {
     RC_ASSERT(made->weighted_max_error <= *options.goals.max_error * 1.000001 + 1e-6);
 }
 
-void expect_same(const LargestError& a, const LargestError& b) { RC_ASSERT(a.value == b.value && a.at == b.at); }
+void expect_same(const judge::LargestError& a, const judge::LargestError& b) {
+  RC_ASSERT(a.value == b.value && a.at == b.at);
+}
 
 RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_judged_as_those_of_an_array, ()) {
   const Scene scene(40);
@@ -113,7 +115,7 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_judged_as_those_of_an_ar
                                             Relief::kRidges, *rc::gen::element(0.0, 0.3));
   const auto mesh = simplify(other.view(), {.goals = {.max_error = *rc::gen::element(2.0, 20.0)}});
   RC_PRE(mesh.has_value());
-  JudgeOptions array, windows;
+  judge::JudgeOptions array, windows;
   array.tolerances.ignored = windows.tolerances.ignored = scene.ignored;
   array.max_error = windows.max_error = *rc::gen::element<std::optional<double>>(std::nullopt, 5.0, 100.0);
   array.weigh = windows.weigh = *rc::gen::arbitrary<bool>();
@@ -125,8 +127,8 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_judged_as_those_of_an_ar
   }
   std::vector<float> rows;
   windows.on_row = [&](int, std::span<const float> errors) { rows.insert(rows.end(), errors.begin(), errors.end()); };
-  const auto a = judge_mesh(scene.field.view(), mesh->mesh, array);
-  const auto b = judge_mesh(scene.streamed, mesh->mesh, windows);
+  const auto a = judge::judge_mesh(scene.field.view(), mesh->mesh, array);
+  const auto b = judge::judge_mesh(scene.streamed, mesh->mesh, windows);
   RC_ASSERT(a.has_value() && b.has_value());
   if (array.weigh) RC_ASSERT(a->ignored == b->ignored);
   expect_same(a->bounded, b->bounded);
@@ -145,7 +147,7 @@ RC_GTEST_PROP(streamed_normals, are_those_of_samples_in_memory, ()) {
                                             *rc::gen::element(2, 63, 64, 65, 130, 300), Relief::kRidges, 0.1);
   const ArraySource source(field.view());
   const std::int32_t steps = *rc::gen::element(1, 8);
-  LatticePoints at{steps, {}};
+  pieces::LatticePoints at{steps, {}};
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   for (int k = 0; k < 400; ++k) {
     const Point p{static_cast<std::int32_t>(random() % static_cast<unsigned>((field.cols - 1) * steps + 1)),
@@ -156,7 +158,7 @@ RC_GTEST_PROP(streamed_normals, are_those_of_samples_in_memory, ()) {
     if (!std::isnan(field.samples[index])) at.points.push_back(p);
   }
   const bool is_same =
-      sample_normals(field.view(), at, {}) == sample_normals(with_source(field.view(), source), at, {});
+      pieces::sample_normals(field.view(), at, {}) == pieces::sample_normals(with_source(field.view(), source), at, {});
   RC_ASSERT(is_same);
 }
 

@@ -87,21 +87,24 @@ struct CutScene {
     options.features.breaklines.lines = cliffs.lines;
     return cliffs.wall_count;
   }
-  Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.features.breaklines, options.features.cutline, *options.goals.max_error / 2,
-                         1, shared_rows(streamed, side));
+  Result<lines::FieldLines> lines() const {
+    return lines::prepare_lines(streamed, options.features.breaklines, options.features.cutline,
+                                *options.goals.max_error / 2, 1, pieces::shared_rows(streamed, side));
   }
-  Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
-    StripTotals fits;
-    TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
+  Result<std::optional<pieces::Tiled>> refine(const lines::FieldLines& lines) const {
+    pieces::StripTotals fits;
+    pieces::TiledOptions tiles{
+        .threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
+    pieces::work_by_strips(pieces::Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits,
+                           tiles);
     const HeightField edited = lines.apply(streamed);
-    const CutSource near(*edited.source, lines.graph.cut->rows);
-    return refine_tiled(with_source(edited, near), tiles);
+    const grid::CutSource near(*edited.source, lines.graph.cut->rows);
+    return pieces::refine_tiled(with_source(edited, near), tiles);
   }
-  Mesh mesh(const Tiled& tiled) const {
-    return freeze(tiled.domain.tin,
-                  {SampleHeights(streamed, {}), {tiled.steps, tiled.heights, {}}, field.view().frame, false});
+  Mesh mesh(const pieces::Tiled& tiled) const {
+    return pieces::freeze(
+        tiled.domain.tin,
+        {pieces::SampleHeights(streamed, {}), {tiled.steps, tiled.heights, {}}, field.view().frame, false});
   }
 };
 
@@ -115,10 +118,10 @@ void check_cut(CutScene& scene) {
     RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.features.cutline, {}, scene.draughtsman) == "");
     return;
   }
-  const Tiled& tiled = **made;
+  const pieces::Tiled& tiled = **made;
   const std::string unsound =
-      testing::verify_triangulation(tiled.domain.tin, (scene.field.cols - 1) * kLatticeSteps + 1,
-                                    (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
+      testing::verify_triangulation(tiled.domain.tin, (scene.field.cols - 1) * grid::kLatticeSteps + 1,
+                                    (scene.field.rows - 1) * grid::kLatticeSteps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   const Mesh mesh = scene.mesh(tiled);
   const auto triangles = testing::triangles_of(mesh, scene.field.rows);
@@ -160,7 +163,7 @@ RC_GTEST_PROP(strip_cutlines, leave_exactly_the_area_of_the_polygons_that_has_da
   } else {
     RC_ASSERT(made.error().kind == ErrorKind::kInput);
   }
-  RC_ASSERT(area * kLatticeSteps * kLatticeSteps ==
+  RC_ASSERT(area * grid::kLatticeSteps * grid::kLatticeSteps ==
             static_cast<double>(testing::doubled_area(scene.field, scene.options.features.cutline)));
 }
 
@@ -185,8 +188,8 @@ RC_GTEST_PROP(strip_cutlines, in_one_strip_are_those_of_a_raster_in_memory, ()) 
   scene.add_lines();
   scene.side = 4096;
   const auto streamed = scene.lines();
-  const auto held = prepare_lines(scene.field.view(), scene.options.features.breaklines, scene.options.features.cutline,
-                                  *scene.options.goals.max_error / 2, 1);
+  const auto held = lines::prepare_lines(scene.field.view(), scene.options.features.breaklines,
+                                         scene.options.features.cutline, *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() || !held.has_value());
   // Next to nodata, the outline has a vertex at every sample.
   const bool is_whole =
@@ -204,9 +207,9 @@ RC_GTEST_PROP(strip_cutlines, in_one_strip_are_those_of_a_raster_in_memory, ()) 
 RC_GTEST_PROP(strip_cutlines, mask_windows_as_they_mask_the_whole, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
-  const auto held = prepare_lines(scene.field.view(), {}, scene.options.features.cutline, 1, 1);
+  const auto held = lines::prepare_lines(scene.field.view(), {}, scene.options.features.cutline, 1, 1);
   RC_PRE(held.has_value());
-  const CutSource source(scene.source, held->graph.cut->rows);
+  const grid::CutSource source(scene.source, held->graph.cut->rows);
   const std::int32_t cols = scene.field.cols, rows = scene.field.rows;
   for (int window = 0; window < 20; ++window) {
     const std::int32_t col = scene.draughtsman.below(cols), row = scene.draughtsman.below(rows);
@@ -285,12 +288,12 @@ TEST(strip_cutlines, leave_two_samples_beyond_the_polygons) {
   ring.polygon = 0;
   ring.points = {{10.5, 8.5, NAN}, {20.5, 8.5, NAN}, {20.5, 15.5, NAN}, {10.5, 15.5, NAN}, {10.5, 8.5, NAN}};
   const HeightField streamed = with_source(field.view(), source);
-  const auto lines = prepare_lines(streamed, {}, {{ring}}, 1, 1, shared_rows(streamed, 16));
+  const auto lines = lines::prepare_lines(streamed, {}, {{ring}}, 1, 1, pieces::shared_rows(streamed, 16));
   ASSERT_TRUE(lines) << lines.error().message;
-  const CutRows& rows = *lines->graph.cut->rows;
-  EXPECT_EQ(rows.side({10, 9}), CutSide::kBeyond);
-  EXPECT_EQ(rows.side({11, 9}), CutSide::kWithin);
-  const CutSource cut(source, lines->graph.cut->rows);
+  const grid::CutRows& rows = *lines->graph.cut->rows;
+  EXPECT_EQ(rows.side({10, 9}), grid::CutSide::kBeyond);
+  EXPECT_EQ(rows.side({11, 9}), grid::CutSide::kWithin);
+  const grid::CutSource cut(source, lines->graph.cut->rows);
   std::vector<float> samples(40 * 30);
   ASSERT_TRUE(cut.read(0, 0, 40, 30, samples.data(), 40));
   for (std::int32_t row = 0; row < 30; ++row) {

@@ -43,14 +43,15 @@ SimplifyOptions any_options() {
   return options;
 }
 
-Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
-                                            std::int32_t tile_side, StripTotals& fits) {
-  TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = tile_side};
-  work_by_strips(Recipe(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
-  return refine_tiled(field, tiles);
+Result<std::optional<pieces::Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
+                                                    std::int32_t tile_side, pieces::StripTotals& fits) {
+  pieces::TiledOptions tiles{
+      .threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = tile_side};
+  pieces::work_by_strips(pieces::Recipe(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
+  return pieces::refine_tiled(field, tiles);
 }
 
-VertexLattice lattice_of(const Tiled& tiled) {
+grid::VertexLattice lattice_of(const pieces::Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
@@ -59,22 +60,21 @@ RC_GTEST_PROP(strips, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   const SimplifyOptions options = any_options();
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
-  const auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
-  StripTotals fits;
+  const auto domain = refine::build_domain(field.raster(), 0, grid_frame(field.rows));
+  pieces::StripTotals fits;
   const auto made = refine_and_fit(streamed, options, *rc::gen::element(0, 8, 16, 31, 64), fits);
   RC_ASSERT(made.has_value() == domain.has_value());
   if (!made) return;
   RC_ASSERT(made->has_value());
-  const Tiled& tiled = **made;
-  const Triangulation& tin = tiled.domain.tin;
+  const pieces::Tiled& tiled = **made;
+  const tin::Triangulation& tin = tiled.domain.tin;
   const std::string unsound = testing::verify_triangulation(tin, (field.cols - 1) * tiled.steps + 1,
                                                             (field.rows - 1) * tiled.steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   RC_ASSERT(testing::outside_area2(tin) == tiled.steps * tiled.steps * testing::outside_area2(domain->tin));
   RC_ASSERT(tiled.domain.whole == domain->whole);
-  const auto judged =
-      measure(field.view(),
-              freeze(tin, {SampleHeights(streamed, tiled.heights), lattice_of(tiled), field.view().frame, false}));
+  const auto judged = measure(field.view(), pieces::freeze(tin, {pieces::SampleHeights(streamed, tiled.heights),
+                                                                 lattice_of(tiled), field.view().frame, false}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);
@@ -88,16 +88,17 @@ RC_GTEST_PROP(strips, are_fitted_alike_by_any_number_of_threads, ()) {
   const ArraySource source(field.view());
   const std::int32_t side = *rc::gen::element(8, 31);
   options.run.threads = 1;
-  StripTotals fits;
+  pieces::StripTotals fits;
   const auto first = refine_and_fit(with_source(field.view(), source), options, side, fits);
   RC_PRE(first.has_value());
   options.run.threads = 3;
   const auto again = refine_and_fit(with_source(field.view(), source), options, side, fits);
   RC_ASSERT(again.has_value());
-  const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
+  const tin::Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
   RC_ASSERT(a.vertex_count() == b.vertex_count() && a.triangle_count() == b.triangle_count());
-  for (Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
-  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
+  for (tin::Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
+  for (tin::HalfEdge h = 0; h < 3 * a.triangle_count(); ++h)
+    RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
   RC_ASSERT((*first)->seams == (*again)->seams);
 }
 
@@ -156,12 +157,12 @@ TEST(strips, are_cancelled_while_they_are_fitted) {
   SimplifyOptions options;
   options.goals.max_error = 4;
   options.quality.effort = Effort::kHigh;
-  StripTotals fits;
-  TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
+  pieces::StripTotals fits;
+  pieces::TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;
   tiles.progress = [&](double share, std::uint64_t) { return share > 0 || ++calls < 2; };
-  work_by_strips(Recipe(field.view(), options), nullptr, nullptr, 4, fits, tiles);
-  const auto cancelled = refine_tiled(with_source(field.view(), source), tiles);
+  pieces::work_by_strips(pieces::Recipe(field.view(), options), nullptr, nullptr, 4, fits, tiles);
+  const auto cancelled = pieces::refine_tiled(with_source(field.view(), source), tiles);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);
 }

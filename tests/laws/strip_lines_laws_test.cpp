@@ -62,23 +62,25 @@ struct StripScene {
     RC_ASSERT(cliffs.has_value());
     lines.insert(lines.end(), cliffs->lines.begin(), cliffs->lines.end());
   }
-  Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.features.breaklines, {}, *options.goals.max_error / 2, 1,
-                         shared_rows(streamed, side));
+  Result<lines::FieldLines> lines() const {
+    return lines::prepare_lines(streamed, options.features.breaklines, {}, *options.goals.max_error / 2, 1,
+                                pieces::shared_rows(streamed, side));
   }
-  Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
-    StripTotals fits;
-    TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
-    work_by_strips(Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
-    return refine_tiled(lines.apply(streamed), tiles);
+  Result<std::optional<pieces::Tiled>> refine(const lines::FieldLines& lines) const {
+    pieces::StripTotals fits;
+    pieces::TiledOptions tiles{
+        .threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
+    pieces::work_by_strips(pieces::Recipe(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits,
+                           tiles);
+    return pieces::refine_tiled(lines.apply(streamed), tiles);
   }
 };
 
 /// True if the middle of two points lies in the surface or on its outline.
-bool is_on_surface(const Triangulation& tin, Point a, Point b) {
-  const auto twice = [&](Vertex v) { return Point{2 * tin.point(v).x, 2 * tin.point(v).y}; };
+bool is_on_surface(const tin::Triangulation& tin, Point a, Point b) {
+  const auto twice = [&](tin::Vertex v) { return Point{2 * tin.point(v).x, 2 * tin.point(v).y}; };
   const Point middle{a.x + b.x, a.y + b.y};
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     const Point p = twice(tin.origin(3 * t)), q = twice(tin.origin(3 * t + 1)), r = twice(tin.origin(3 * t + 2));
     if (orient(p, q, middle) >= 0 && orient(q, r, middle) >= 0 && orient(r, p, middle) >= 0) return true;
@@ -88,11 +90,11 @@ bool is_on_surface(const Triangulation& tin, Point a, Point b) {
 
 /// True if each edge of the graph between vertices of the domain is a chain of edges on the surface, except removable
 /// edges.
-bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_starts) {
-  const Triangulation& tin = tiled.domain.tin;
-  std::map<std::pair<std::int32_t, std::int32_t>, Vertex> vertices;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const Vertex v = tin.origin(h);
+bool holds_lines(const pieces::Tiled& tiled, const lines::ConstraintGraph& graph, bool with_starts) {
+  const tin::Triangulation& tin = tiled.domain.tin;
+  std::map<std::pair<std::int32_t, std::int32_t>, tin::Vertex> vertices;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::Vertex v = tin.origin(h);
     if (!tin.is_outside(h / 3)) vertices[{tin.point(v).x, tin.point(v).y}] = v;
   }
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
@@ -103,8 +105,8 @@ bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_sta
     const auto along = [&](Point at) {
       return std::int64_t{at.x - p.x} * (q.x - p.x) + std::int64_t{at.y - p.y} * (q.y - p.y);
     };
-    std::vector<std::pair<std::int64_t, Vertex>> on;
-    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    std::vector<std::pair<std::int64_t, tin::Vertex>> on;
+    for (tin::Vertex v = 0; v < tin.vertex_count(); ++v) {
       const Point at = tin.point(v);
       const std::int64_t beside = std::int64_t{at.x - p.x} * (q.y - p.y) - std::int64_t{at.y - p.y} * (q.x - p.x);
       if (beside == 0 && along(at) >= 0 && along(at) <= along(q)) on.emplace_back(along(at), v);
@@ -112,7 +114,7 @@ bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_sta
     std::sort(on.begin(), on.end());
     for (std::size_t k = 0; k + 1 < on.size(); ++k) {
       const auto [from, to] = std::pair(on[k].second, on[k + 1].second);
-      const bool is_edge = tin.find_edge(from, to) != kNone || tin.find_edge(to, from) != kNone;
+      const bool is_edge = tin.find_edge(from, to) != tin::kNone || tin.find_edge(to, from) != tin::kNone;
       if (!is_edge && is_on_surface(tin, tin.point(from), tin.point(to))) return false;
     }
   }
@@ -123,22 +125,23 @@ RC_GTEST_PROP(strip_lines, are_chains_of_edges_and_the_bound_holds_against_the_e
   const StripScene scene;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
-  const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
+  const auto domain = refine::build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
   const auto made = scene.refine(*lines);
   RC_ASSERT(made.has_value() == domain.has_value());
   if (!made) return;
-  const Tiled& tiled = **made;
-  const Triangulation& tin = tiled.domain.tin;
-  RC_ASSERT(tiled.steps == kLatticeSteps);
+  const pieces::Tiled& tiled = **made;
+  const tin::Triangulation& tin = tiled.domain.tin;
+  RC_ASSERT(tiled.steps == grid::kLatticeSteps);
   const std::string unsound =
-      testing::verify_triangulation(tin, (scene.field.cols - 1) * kLatticeSteps + 1,
-                                    (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
+      testing::verify_triangulation(tin, (scene.field.cols - 1) * grid::kLatticeSteps + 1,
+                                    (scene.field.rows - 1) * grid::kLatticeSteps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   RC_ASSERT(holds_lines(tiled, lines->graph, scene.options.quality.effort == Effort::kFast));
   const HeightField edited = lines->apply(scene.streamed);
   const auto judged = measure(
       edited,
-      freeze(tin, {SampleHeights(edited, {}), {tiled.steps, tiled.heights, {}}, scene.field.view().frame, false}));
+      pieces::freeze(
+          tin, {pieces::SampleHeights(edited, {}), {tiled.steps, tiled.heights, {}}, scene.field.view().frame, false}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);
@@ -156,10 +159,11 @@ RC_GTEST_PROP(strip_lines, are_inserted_alike_by_any_number_of_threads, ()) {
   scene.options.run.threads = 3;
   const auto again = scene.refine(*lines);
   RC_ASSERT(again.has_value());
-  const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
+  const tin::Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
   RC_ASSERT(a.vertex_count() == b.vertex_count() && a.triangle_count() == b.triangle_count());
-  for (Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
-  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
+  for (tin::Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
+  for (tin::HalfEdge h = 0; h < 3 * a.triangle_count(); ++h)
+    RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
   const auto is_same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   RC_ASSERT(std::equal((*first)->heights.begin(), (*first)->heights.end(), (*again)->heights.begin(),
                        (*again)->heights.end(), is_same));
@@ -167,10 +171,11 @@ RC_GTEST_PROP(strip_lines, are_inserted_alike_by_any_number_of_threads, ()) {
 
 RC_GTEST_PROP(strip_lines, in_one_strip_are_those_of_a_raster_in_memory, ()) {
   const StripScene scene;
-  const auto streamed = prepare_lines(scene.streamed, scene.options.features.breaklines, {},
-                                      *scene.options.goals.max_error / 2, 1, shared_rows(scene.streamed, 4096));
-  const auto held =
-      prepare_lines(scene.field.view(), scene.options.features.breaklines, {}, *scene.options.goals.max_error / 2, 1);
+  const auto streamed =
+      lines::prepare_lines(scene.streamed, scene.options.features.breaklines, {}, *scene.options.goals.max_error / 2, 1,
+                           pieces::shared_rows(scene.streamed, 4096));
+  const auto held = lines::prepare_lines(scene.field.view(), scene.options.features.breaklines, {},
+                                         *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;
   RC_ASSERT(streamed->inserted == held->inserted);

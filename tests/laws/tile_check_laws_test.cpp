@@ -207,9 +207,9 @@ TEST(tile_check, threads_change_nothing) {
 
 /// Changes a tile of quantized-mesh: unpacks and repacks it.
 void change(Bytes& tile, const std::function<void(Bytes&)>& how) {
-  Bytes bytes = *decompress_gzip(tile, 1 << 24);
+  Bytes bytes = *io::decompress_gzip(tile, 1 << 24);
   how(bytes);
-  tile = *compress_gzip(bytes);
+  tile = *io::compress_gzip(bytes);
 }
 
 template <class T>
@@ -367,7 +367,7 @@ TEST(tile_check, finds_tiles_that_are_missing_or_not_announced_or_packed_otherwi
   made.shelf.texts.erase("layer.json");
   expect(made, TileFaultKind::kAvailability, "layer.json is missing");
   made = good;
-  made.bytes_of(id) = *decompress_gzip(made.bytes_of(id), 1 << 24);
+  made.bytes_of(id) = *io::decompress_gzip(made.bytes_of(id), 1 << 24);
   expect(made, TileFaultKind::kContainer, tile_name(TileFormat::kQuantizedMesh, id) + " is not in gzip");
 }
 
@@ -414,12 +414,12 @@ TEST(tile_check, finds_lists_of_edges_that_go_the_other_way_round) {
   const Made good(TileFormat::kGlb, kIsland, 900, 40, false, Effort::kFast, 5);
   ASSERT_TRUE(good.check().holds());
   const TileId id = good.inner_tile();
-  const EarthTile placed = place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
-  for (const auto edge : {&EarthTile::west, &EarthTile::north, &EarthTile::east, &EarthTile::south}) {
+  const io::EarthTile placed = io::place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
+  for (const auto edge : {&io::EarthTile::west, &io::EarthTile::north, &io::EarthTile::east, &io::EarthTile::south}) {
     Made made = good;
-    EarthTile turned = placed;
+    io::EarthTile turned = placed;
     std::reverse((turned.*edge).begin(), (turned.*edge).end());
-    made.bytes_of(id) = *encode_tile_glb(turned);
+    made.bytes_of(id) = *io::encode_tile_glb(turned);
     const TileCheck check = made.check();
     EXPECT_EQ(check.count(), 1u) << described(check);
     EXPECT_EQ(check.faults[static_cast<std::size_t>(TileFaultKind::kEdgeList)], 1u) << described(check);
@@ -430,15 +430,15 @@ TEST(tile_check, finds_lists_of_edges_that_go_the_other_way_round) {
 TEST(tile_check, finds_skirts_that_hang_badly) {
   const Made good(TileFormat::kGlb, kIsland, 900, 40, false, Effort::kFast, 5);
   const TileId id = good.inner_tile();
-  const EarthTile placed = place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
-  const auto expect = [&](const EarthTile& tile, const char* words) {
+  const io::EarthTile placed = io::place_on_earth(*make_tile(good.plan, id, good.land), good.plan);
+  const auto expect = [&](const io::EarthTile& tile, const char* words) {
     Made made = good;
-    made.bytes_of(id) = *encode_tile_glb(tile);
+    made.bytes_of(id) = *io::encode_tile_glb(tile);
     const TileCheck check = made.check();
     EXPECT_EQ(check.count(), 1u) << described(check);
     EXPECT_NE(described(check).find(words), std::string::npos) << described(check);
   };
-  EarthTile changed = placed;
+  io::EarthTile changed = placed;
   changed.feet[1][1] = changed.offsets[changed.north[1]];
   expect(changed, "does not hang down");
   changed = placed;
@@ -448,7 +448,7 @@ TEST(tile_check, finds_skirts_that_hang_badly) {
   changed = placed;
   changed.feet = {};
   Made made = good;
-  made.bytes_of(id) = *encode_tile_glb(changed);
+  made.bytes_of(id) = *io::encode_tile_glb(changed);
   EXPECT_TRUE(made.check().holds());
 }
 
@@ -456,14 +456,14 @@ TEST(tile_check, skirts_hang_where_a_tile_is_beside_and_are_no_part_of_the_surfa
   const Made made(TileFormat::kGlb, kPolar, 900, 40, false, Effort::kFast, 4);
   for (const TileId id : {TileId{4, 3, 15}, TileId{4, 0, 14}, TileId{0, 1, 0}}) {
     const Bytes& bytes = made.shelf.held.at({id.z, id.x, id.y});
-    const auto tile = decode_tile_glb(bytes, "tile");
+    const auto tile = io::decode_tile_glb(bytes, "tile");
     ASSERT_TRUE(tile) << tile.error().message;
     const bool is_at_pole = id.y + 1 == 1u << id.z, has_both_poles = id.z == 0;
     std::size_t tops = tile->west.size() + tile->east.size();
     if (!has_both_poles) tops += tile->south.size() + (is_at_pole ? 0 : tile->north.size());
     EXPECT_EQ(tile->skirt.size(), 2 * tops);
     EXPECT_EQ(tile->skirt_triangles.size(), 6 * (tops - (has_both_poles ? 2 : is_at_pole ? 3 : 4)));
-    const double depth = skirt_depth(made.plan, id.z);
+    const double depth = io::skirt_depth(made.plan, id.z);
     EXPECT_GE(depth, 5 * made.plan.levels[static_cast<std::size_t>(id.z)].max_error);
     for (std::size_t k = 0; k < tile->skirt.size(); k += 2) {
       const auto &top = tile->skirt[k], &foot = tile->skirt[k + 1];
@@ -482,8 +482,8 @@ TEST(tile_check, a_tile_of_glb_is_read_as_it_was_placed) {
     if (z < made.plan.block_level) continue;
     const auto tile = make_tile(made.plan, {z, x, y}, made.land);
     ASSERT_TRUE(tile);
-    const EarthTile placed = place_on_earth(*tile, made.plan);
-    const auto read = decode_tile_glb(bytes, "tile");
+    const io::EarthTile placed = io::place_on_earth(*tile, made.plan);
+    const auto read = io::decode_tile_glb(bytes, "tile");
     ASSERT_TRUE(read) << read.error().message;
     std::vector<std::array<double, 3>> want, have = read->positions;
     for (const auto& offset : placed.offsets) {

@@ -65,7 +65,7 @@ RC_GTEST_PROP(tile_laws, the_bound_is_that_of_all_nodes_as_clients_decode_them, 
 }
 
 /// Errors of the tile's decoded triangles at nodes, by the judge of finished meshes.
-Measurement judge(const TerrainTile& tile, const TileNodes& nodes, double limit) {
+Measurement judge(const TerrainTile& tile, const tiles::TileNodes& nodes, double limit) {
   std::vector<float> heights;
   for (std::int32_t row = 0; row <= nodes.steps(); ++row)
     heights.insert(heights.end(), nodes.from(0, row), nodes.from(0, row) + nodes.steps() + 1);
@@ -76,7 +76,7 @@ Measurement judge(const TerrainTile& tile, const TileNodes& nodes, double limit)
   MeasureOptions options;
   options.topology = false;
   options.collect_above = limit;
-  return *measure(field, decoded(tile, nodes.steps()), options);
+  return *measure(field, tiles::decoded(tile, nodes.steps()), options);
 }
 
 RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
@@ -87,14 +87,14 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
                   *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
   const std::int32_t steps = nodes_of(plan, z);
-  const TileNodes nodes = *TileNodes::read(plan, id, steps, normal_reach(steps), land);
+  const tiles::TileNodes nodes = *tiles::TileNodes::read(plan, id, steps, tiles::normal_reach(steps), land);
   TerrainTile tile = *make_tile(plan, id, land);
   // Displaces some vertices, so that nodes around them exceed the limit.
   const double limit = plan.levels[static_cast<std::size_t>(z)].max_error;
   const auto far = static_cast<std::int32_t>(3 * limit / tile.quantum);
   const auto astray = *rc::gen::inRange(0, 5);
   for (int k = 0; k < astray; ++k) tile.heights[*rc::gen::inRange<std::size_t>(0, tile.heights.size())] += far;
-  const NodeErrors errors = scan_nodes(tile, nodes, limit);
+  const tiles::NodeErrors errors = tiles::scan_nodes(tile, nodes, limit);
   const Measurement judged = judge(tile, nodes, limit);
   RC_ASSERT(errors.uncovered == 0u);
   RC_ASSERT(std::abs(errors.largest - judged.max_error) <= 1e-9 * (1 + judged.max_error));
@@ -108,7 +108,7 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   RC_ASSERT(places(errors.worst) == places(judged.offenders));
   tile.triangles.resize(tile.triangles.size() - 3);
   // The judge tolerates a node outside a triangle by less than a 256th of a step.
-  RC_ASSERT(scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
+  RC_ASSERT(tiles::scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
 }
 
 RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bound_stays_true, ()) {
@@ -258,19 +258,19 @@ TEST(grid_laws, a_raster_beyond_the_grids_end_is_refused_and_one_across_it_is_cu
 
 TEST(globe_laws, sines_are_those_of_the_library) {
   for (double degrees = -720; degrees <= 720; degrees += 0.37) {
-    const SineCosine at = sine_of_degrees(degrees);
+    const globe::SineCosine at = globe::sine_of_degrees(degrees);
     EXPECT_NEAR(at.sine, std::sin(degrees * 0.017453292519943295), 4e-16 + 2e-16 * std::abs(degrees) / 57);
     EXPECT_NEAR(at.cosine, std::cos(degrees * 0.017453292519943295), 4e-16 + 2e-16 * std::abs(degrees) / 57);
   }
-  EXPECT_EQ(sine_of_degrees(90).sine, 1);
-  EXPECT_EQ(sine_of_degrees(180).sine, 0);
-  EXPECT_EQ(sine_of_degrees(-90).cosine, 0);
+  EXPECT_EQ(globe::sine_of_degrees(90).sine, 1);
+  EXPECT_EQ(globe::sine_of_degrees(180).sine, 0);
+  EXPECT_EQ(globe::sine_of_degrees(-90).cosine, 0);
 }
 
 TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
   const PyramidPlan plan = plan_of(0, 0, 9, 16, Effort::kFast);
   const AnyLand sea(1, 0, 0, false, {-180, -90, 180, 90});
-  const Globe globe{Geodetic{}};
+  const globe::Globe globe{Geodetic{}};
   for (const TileId id : {TileId{4, 0, 0}, TileId{5, 30, 16}, TileId{7, 100, 64}, TileId{9, 3, 511}}) {
     const auto tile = make_tile(plan, id, sea);
     ASSERT_TRUE(tile) << tile.error().message;
@@ -278,7 +278,7 @@ TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
     const DegreeBox box = TileGrid{}.bounds_of(id);
     double deepest = 0;
     for (std::size_t k = 0; k < tile->triangles.size(); k += 3) {
-      std::array<Space, 3> corners;
+      std::array<globe::Space, 3> corners;
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t v = tile->triangles[k + c];
         corners[c] = globe.position(box.west + (box.east - box.west) * tile->u[v] / 32767.0,
@@ -286,8 +286,9 @@ TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
       }
       for (int a = 0; a <= 8; ++a) {
         for (int b = 0; a + b <= 8; ++b) {
-          const Space p =
-              sum(sum(scaled(corners[0], a / 8.0), scaled(corners[1], b / 8.0)), scaled(corners[2], (8 - a - b) / 8.0));
+          const globe::Space p =
+              globe::sum(globe::sum(globe::scaled(corners[0], a / 8.0), globe::scaled(corners[1], b / 8.0)),
+                         globe::scaled(corners[2], (8 - a - b) / 8.0));
           // Depth below the ellipsoid towards the centre, which is less than along the vertical.
           const double f = 1 / 298.257223563, polar = 6378137 * (1 - f);
           const double scale =

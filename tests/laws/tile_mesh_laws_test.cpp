@@ -33,23 +33,23 @@ Point random_point(std::mt19937& random, std::int32_t cols, std::int32_t rows, L
 }
 
 /// Inserts the same points into both, with good and bad hints.
-void insert_into_both(TileMesh& mesh, Triangulation& tin, std::mt19937& random, std::int32_t cols, std::int32_t rows,
-                      Lie lie, int count) {
+void insert_into_both(tin::TileMesh& mesh, tin::Triangulation& tin, std::mt19937& random, std::int32_t cols,
+                      std::int32_t rows, Lie lie, int count) {
   for (int k = 0; k < count; ++k) {
     const Point p = random_point(random, cols, rows, lie);
-    mesh.insert(tile_point(p.x, p.y), static_cast<TileMesh::Id>(random() % mesh.triangle_count()));
+    mesh.insert(geom::tile_point(p.x, p.y), static_cast<tin::TileMesh::Id>(random() % mesh.triangle_count()));
     tin.insert(p, tin.locate(p, tin.last_touched()));
   }
 }
 
 /// Lattice steps of all constrained edges, each once: splitting chains preserves their sum.
 template <class Visit>
-void visit_constrained(const TileMesh& mesh, Visit&& visit) {
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+void visit_constrained(const tin::TileMesh& mesh, Visit&& visit) {
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
     for (unsigned k = 0; k < 3; ++k) {
-      const TileMesh::Link link = mesh[t].links[k];
-      if (TileMesh::is_constrained(link) && t < TileMesh::triangle_of(link))
-        visit(point_of(mesh[t].corners[k]), point_of(mesh[t].corners[(k + 1) % 3]));
+      const tin::TileMesh::Link link = mesh[t].links[k];
+      if (tin::TileMesh::is_constrained(link) && t < tin::TileMesh::triangle_of(link))
+        visit(geom::point_of(mesh[t].corners[k]), geom::point_of(mesh[t].corners[(k + 1) % 3]));
     }
   }
 }
@@ -63,9 +63,9 @@ RC_GTEST_PROP(tile_mesh, is_the_triangulation_of_its_points, ()) {
   const auto cols = *rc::gen::element(2, 3, 5, 17, 64, 1000, 4097), rows = *rc::gen::element(2, 3, 9, 64, 777, 4097);
   const Lie lie = *rc::gen::element(Lie::kAnywhere, Lie::kAnywhere, Lie::kOnBorder, Lie::kOnFewLines, Lie::kInCorner);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.reset(cols, rows);
-  Triangulation tin(cols, rows);
+  tin::Triangulation tin(cols, rows);
   for (int round = 0; round < 3; ++round) {
     insert_into_both(mesh, tin, random, cols, rows, round == 1 ? Lie::kOnBorder : lie, 40);
     const std::string broken = testing::verify_tile_mesh(mesh, cols, rows);
@@ -78,9 +78,9 @@ RC_GTEST_PROP(tile_mesh, is_the_triangulation_of_its_points, ()) {
 
 RC_GTEST_PROP(tile_mesh, equals_the_triangulation_of_points_in_general_position, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.reset(4097, 4001);
-  Triangulation tin(4097, 4001);
+  tin::Triangulation tin(4097, 4001);
   insert_into_both(mesh, tin, random, 4097, 4001, Lie::kAnywhere, 300);
   RC_PRE(!testing::has_ties(tin));
   RC_ASSERT(testing::triangles_of(mesh) == testing::triangles_of(tin));
@@ -90,9 +90,9 @@ RC_GTEST_PROP(tile_mesh, insertion_keeps_constraints_and_the_outside, ()) {
   const auto cols = *rc::gen::inRange(2, 40), rows = *rc::gen::inRange(2, 40);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field = testing::random_field(seed, cols, rows, Relief::kReal, *rc::gen::element(0.02, 0.1, 0.3, 0.7));
-  auto domain = build_domain(field.raster(), 0, grid_frame(rows));
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(rows));
   RC_PRE(domain.has_value());
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.assign(domain->tin);
   RC_ASSERT(testing::verify_tile_mesh(mesh, cols, rows) == "");
   RC_ASSERT(testing::triangles_of(mesh) == testing::triangles_of(domain->tin));
@@ -126,43 +126,44 @@ RC_GTEST_PROP(tile_mesh, locates_every_point_from_every_triangle, ()) {
   const auto cols = *rc::gen::inRange(2, 40), rows = *rc::gen::inRange(2, 40);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field = testing::random_field(seed, cols, rows, Relief::kReal, 0.2);
-  auto domain = build_domain(field.raster(), 0, grid_frame(rows));
+  auto domain = refine::build_domain(field.raster(), 0, grid_frame(rows));
   RC_PRE(domain.has_value());
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.assign(domain->tin);
   std::mt19937 random(seed);
   insert_into_both(mesh, domain->tin, random, cols, rows, Lie::kAnywhere, 30);
   for (int k = 0; k < 200; ++k) {
     const Point p = random_point(random, cols, rows, Lie::kAnywhere);
-    const auto hint = static_cast<TileMesh::Id>(random() % mesh.triangle_count());
-    const auto& corners = mesh[mesh.locate(tile_point(p.x, p.y), hint)].corners;
-    for (std::size_t e = 0; e < 3; ++e) RC_ASSERT(orient(point_of(corners[e]), point_of(corners[(e + 1) % 3]), p) >= 0);
+    const auto hint = static_cast<tin::TileMesh::Id>(random() % mesh.triangle_count());
+    const auto& corners = mesh[mesh.locate(geom::tile_point(p.x, p.y), hint)].corners;
+    for (std::size_t e = 0; e < 3; ++e)
+      RC_ASSERT(orient(geom::point_of(corners[e]), geom::point_of(corners[(e + 1) % 3]), p) >= 0);
   }
 }
 
 RC_GTEST_PROP(tile_mesh, a_cavity_says_what_will_change, ()) {
   const auto cols = *rc::gen::inRange(3, 60), rows = *rc::gen::inRange(3, 60);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.reset(cols, rows);
   for (int k = 0; k < 60; ++k) {
     const Point p = random_point(random, cols, rows, k % 3 == 0 ? Lie::kOnBorder : Lie::kAnywhere);
-    const TileMesh::Id t = mesh.locate(tile_point(p.x, p.y), 0);
+    const tin::TileMesh::Id t = mesh.locate(geom::tile_point(p.x, p.y), 0);
     const auto& corners = mesh[t].corners;
-    if (std::find(corners.begin(), corners.end(), tile_point(p.x, p.y)) != corners.end()) continue;
-    std::vector<TileMesh::Record> before;
-    for (TileMesh::Id id = 0; id < mesh.triangle_count(); ++id) before.push_back(mesh[id]);
-    const TileMesh::Cavity cavity = mesh.find_cavity(t, tile_point(p.x, p.y));
+    if (std::find(corners.begin(), corners.end(), geom::tile_point(p.x, p.y)) != corners.end()) continue;
+    std::vector<tin::TileMesh::Record> before;
+    for (tin::TileMesh::Id id = 0; id < mesh.triangle_count(); ++id) before.push_back(mesh[id]);
+    const tin::TileMesh::Cavity cavity = mesh.find_cavity(t, geom::tile_point(p.x, p.y));
     RC_ASSERT(cavity.removed[0] == t);
-    const std::vector<TileMesh::Id> removed(cavity.removed.begin(), cavity.removed.end());
+    const std::vector<tin::TileMesh::Id> removed(cavity.removed.begin(), cavity.removed.end());
     for (std::size_t i = 0; i < cavity.sides.size(); ++i)
       RC_ASSERT(cavity.sides[i].to == cavity.sides[(i + 1) % cavity.sides.size()].from);
-    const auto fresh = mesh.fill_cavity(tile_point(p.x, p.y));
-    for (const TileMesh::Id id : fresh) {
-      RC_ASSERT(mesh[id].corners[0] == tile_point(p.x, p.y));
+    const auto fresh = mesh.fill_cavity(geom::tile_point(p.x, p.y));
+    for (const tin::TileMesh::Id id : fresh) {
+      RC_ASSERT(mesh[id].corners[0] == geom::tile_point(p.x, p.y));
       RC_ASSERT(mesh[id].key == 0);
     }
-    for (TileMesh::Id id = 0; id < before.size(); ++id) {
+    for (tin::TileMesh::Id id = 0; id < before.size(); ++id) {
       if (std::find(removed.begin(), removed.end(), id) == removed.end())
         RC_ASSERT(mesh[id].corners == before[id].corners);
     }
@@ -170,18 +171,18 @@ RC_GTEST_PROP(tile_mesh, a_cavity_says_what_will_change, ()) {
 }
 
 TEST(tile_mesh, memory_of_an_earlier_tile_does_not_show) {
-  TileMesh used;
+  tin::TileMesh used;
   for (std::uint32_t round = 0; round < 6; ++round) {
     const std::int32_t cols = static_cast<std::int32_t>(5 + 40 * (round % 3)), rows = 30;
-    TileMesh fresh;
+    tin::TileMesh fresh;
     used.reset(cols, rows);
     fresh.reset(cols, rows);
     std::mt19937 random(round);
-    TileMesh::Id hint = 0;
+    tin::TileMesh::Id hint = 0;
     for (int k = 0; k < 100; ++k) {
       const Point p = random_point(random, cols, rows, k % 4 == 0 ? Lie::kOnBorder : Lie::kAnywhere);
-      hint = used.insert(tile_point(p.x, p.y), hint);
-      fresh.insert(tile_point(p.x, p.y), hint % static_cast<TileMesh::Id>(fresh.triangle_count()));
+      hint = used.insert(geom::tile_point(p.x, p.y), hint);
+      fresh.insert(geom::tile_point(p.x, p.y), hint % static_cast<tin::TileMesh::Id>(fresh.triangle_count()));
     }
     ASSERT_EQ(testing::verify_tile_mesh(used, cols, rows), "");
     ASSERT_EQ(used.vertex_count(), fresh.vertex_count());
@@ -189,12 +190,12 @@ TEST(tile_mesh, memory_of_an_earlier_tile_does_not_show) {
 }
 
 TEST(tile_mesh, a_vertex_is_not_inserted_twice) {
-  TileMesh mesh;
+  tin::TileMesh mesh;
   mesh.reset(9, 9);
-  mesh.insert(tile_point(4, 4), 0);
-  const TileMesh::Id t = mesh.insert(tile_point(4, 4), 1);
+  mesh.insert(geom::tile_point(4, 4), 0);
+  const tin::TileMesh::Id t = mesh.insert(geom::tile_point(4, 4), 1);
   EXPECT_EQ(mesh.vertex_count(), 5u);
-  EXPECT_NE(std::find(mesh[t].corners.begin(), mesh[t].corners.end(), tile_point(4, 4)), mesh[t].corners.end());
+  EXPECT_NE(std::find(mesh[t].corners.begin(), mesh[t].corners.end(), geom::tile_point(4, 4)), mesh[t].corners.end());
 }
 
 }  // namespace

@@ -20,33 +20,34 @@ namespace scarp::testing {
 /// The first broken law, "" if none: (1) links are mutual, along the same edge, and constraints agree; (2) triangles
 /// are positive; (3) edges without a neighbour lie on the rectangle's border; (4) the areas add up to the rectangle and
 /// V − E + F = 1; (5) locally Delaunay except across constraints; (6) outside changes only across constraints.
-inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std::int32_t rows) {
+inline std::string verify_tile_mesh(const tin::TileMesh& mesh, std::int32_t cols, std::int32_t rows) {
   std::int64_t area2 = 0;
   std::size_t border = 0;
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
-    const TileMesh::Record& record = mesh[t];
-    const std::array<Point, 3> p{point_of(record.corners[0]), point_of(record.corners[1]), point_of(record.corners[2])};
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+    const tin::TileMesh::Record& record = mesh[t];
+    const std::array<Point, 3> p{geom::point_of(record.corners[0]), geom::point_of(record.corners[1]),
+                                 geom::point_of(record.corners[2])};
     if (orient(p[0], p[1], p[2]) <= 0) return fmt::format("triangle {} is not positive", t);
     area2 += orient(p[0], p[1], p[2]);
     for (unsigned k = 0; k < 3; ++k) {
-      const TileMesh::Link link = record.links[k];
+      const tin::TileMesh::Link link = record.links[k];
       const Point a = p[k], b = p[(k + 1) % 3];
-      if (link == TileMesh::kBorder) {
+      if (link == tin::TileMesh::kBorder) {
         ++border;
         const bool on_border =
             (a.x == b.x && (a.x == 0 || a.x == cols - 1)) || (a.y == b.y && (a.y == 0 || a.y == rows - 1));
         if (!on_border) return fmt::format("edge {} of {} has no neighbour within the rectangle", k, t);
         continue;
       }
-      const TileMesh::Record& other = mesh[TileMesh::triangle_of(link)];
-      const unsigned e = TileMesh::edge_of(link);
+      const tin::TileMesh::Record& other = mesh[tin::TileMesh::triangle_of(link)];
+      const unsigned e = tin::TileMesh::edge_of(link);
       if (other.links[e] != (t << 3 | (link & 4) | k)) return fmt::format("edge {} of {} is not linked back", k, t);
       if (other.corners[e] != record.corners[(k + 1) % 3] || other.corners[(e + 1) % 3] != record.corners[k])
         return fmt::format("edge {} of {} runs elsewhere beyond", k, t);
-      if (TileMesh::is_constrained(link)) continue;
-      if (mesh.is_outside(t) != mesh.is_outside(TileMesh::triangle_of(link)))
+      if (tin::TileMesh::is_constrained(link)) continue;
+      if (mesh.is_outside(t) != mesh.is_outside(tin::TileMesh::triangle_of(link)))
         return fmt::format("outside changes across the free edge {} of {}", k, t);
-      if (in_circle(p[0], p[1], p[2], point_of(other.corners[(e + 2) % 3])) > 0)
+      if (geom::in_circle(p[0], p[1], p[2], geom::point_of(other.corners[(e + 2) % 3])) > 0)
         return fmt::format("edge {} of {} is not Delaunay", k, t);
     }
   }
@@ -57,53 +58,53 @@ inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std
 }
 
 /// A triangle: its points, the smallest first, and its outside mark.
-using NamedTriangle = std::array<TilePoint, 4>;
+using NamedTriangle = std::array<geom::TilePoint, 4>;
 
-inline NamedTriangle name_triangle(std::array<TilePoint, 3> corners, bool outside) {
+inline NamedTriangle name_triangle(std::array<geom::TilePoint, 3> corners, bool outside) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return {corners[0], corners[1], corners[2], outside};
 }
 
 /// All triangles, sorted: the mesh without its numbering.
-inline std::vector<NamedTriangle> triangles_of(const TileMesh& mesh) {
+inline std::vector<NamedTriangle> triangles_of(const tin::TileMesh& mesh) {
   std::vector<NamedTriangle> triangles;
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t)
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t)
     triangles.push_back(name_triangle(mesh[t].corners, mesh.is_outside(t)));
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
-inline std::vector<NamedTriangle> triangles_of(const Triangulation& tin) {
+inline std::vector<NamedTriangle> triangles_of(const tin::Triangulation& tin) {
   std::vector<NamedTriangle> triangles;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     const auto [a, b, c] = tin.corners(t);
-    triangles.push_back(
-        name_triangle({tile_point(a.x, a.y), tile_point(b.x, b.y), tile_point(c.x, c.y)}, tin.is_outside(t)));
+    triangles.push_back(name_triangle(
+        {geom::tile_point(a.x, a.y), geom::tile_point(b.x, b.y), geom::tile_point(c.x, c.y)}, tin.is_outside(t)));
   }
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 
 /// True if four corners around a free edge lie on a circle, so that the Delaunay triangulation is not unique.
-inline bool has_ties(const Triangulation& tin) {
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (tin.twin(h) == kNone || tin.is_constrained(h)) continue;
+inline bool has_ties(const tin::Triangulation& tin) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) == tin::kNone || tin.is_constrained(h)) continue;
     const auto [a, b, c] = tin.corners(h / 3);
-    if (in_circle(a, b, c, tin.point(tin.origin(Triangulation::previous(tin.twin(h))))) == 0) return true;
+    if (geom::in_circle(a, b, c, tin.point(tin.origin(tin::Triangulation::previous(tin.twin(h))))) == 0) return true;
   }
   return false;
 }
 
-inline std::int64_t outside_area2(const TileMesh& mesh) {
+inline std::int64_t outside_area2(const tin::TileMesh& mesh) {
   std::int64_t area2 = 0;
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
     const auto& c = mesh[t].corners;
-    if (mesh.is_outside(t)) area2 += orient(point_of(c[0]), point_of(c[1]), point_of(c[2]));
+    if (mesh.is_outside(t)) area2 += orient(geom::point_of(c[0]), geom::point_of(c[1]), geom::point_of(c[2]));
   }
   return area2;
 }
-inline std::int64_t outside_area2(const Triangulation& tin) {
+inline std::int64_t outside_area2(const tin::Triangulation& tin) {
   std::int64_t area2 = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     const auto [a, b, c] = tin.corners(t);
     if (tin.is_outside(t)) area2 += orient(a, b, c);
   }
@@ -125,7 +126,8 @@ inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::arra
 
 /// A sample of the closed triangle that breaks the bound as a real number, or a corner that is nodata; "" if none.
 /// Scans every sample of the bounding box.
-inline std::string find_broken_bound(const Raster& raster, const std::array<Point, 3>& corners, double threshold) {
+inline std::string find_broken_bound(const grid::Raster& raster, const std::array<Point, 3>& corners,
+                                     double threshold) {
   std::array<float, 3> heights;
   for (std::size_t k = 0; k < 3; ++k) {
     heights[k] = raster.at(corners[k]);
@@ -138,24 +140,25 @@ inline std::string find_broken_bound(const Raster& raster, const std::array<Poin
       const bool inside = orient(corners[0], corners[1], p) >= 0 && orient(corners[1], corners[2], p) >= 0 &&
                           orient(corners[2], corners[0], p) >= 0;
       if (!inside || !raster.is_valid(p) || is_clearly_kept(corners, heights, p, raster.at(p), threshold)) continue;
-      if (exceeds_exactly(corners, heights, p, raster.at(p), threshold))
+      if (geom::exceeds_exactly(corners, heights, p, raster.at(p), threshold))
         return fmt::format("sample ({}, {}) breaks the bound {}", p.x, p.y, threshold);
     }
   }
   return "";
 }
 
-inline std::string find_broken_bound(const Raster& raster, const TileMesh& mesh, double threshold) {
-  for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
+inline std::string find_broken_bound(const grid::Raster& raster, const tin::TileMesh& mesh, double threshold) {
+  for (tin::TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.is_outside(t)) continue;
     const auto& c = mesh[t].corners;
-    const std::string broken = find_broken_bound(raster, {point_of(c[0]), point_of(c[1]), point_of(c[2])}, threshold);
+    const std::string broken =
+        find_broken_bound(raster, {geom::point_of(c[0]), geom::point_of(c[1]), geom::point_of(c[2])}, threshold);
     if (!broken.empty()) return broken;
   }
   return "";
 }
-inline std::string find_broken_bound(const Raster& raster, const Triangulation& tin, double threshold) {
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+inline std::string find_broken_bound(const grid::Raster& raster, const tin::Triangulation& tin, double threshold) {
+  for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     const std::string broken = find_broken_bound(raster, tin.corners(t), threshold);
     if (!broken.empty()) return broken;

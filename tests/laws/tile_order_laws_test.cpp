@@ -14,10 +14,10 @@ using testing::Field;
 
 constexpr double kDensity = 0.05;
 
-TileOrder order_of(const Field& field, double density = kDensity) {
-  Tile tile;
+refine::TileOrder order_of(const Field& field, double density = kDensity) {
+  refine::Tile tile;
   EXPECT_TRUE(tile.load(field.view(), {0, 0, field.cols, field.rows}));
-  return choose_order(tile.view(), density);
+  return refine::choose_order(tile.view(), density);
 }
 
 Field noise(std::int32_t cols, std::int32_t rows) {
@@ -32,34 +32,34 @@ Field dome(std::int32_t cols, std::int32_t rows) {
 }
 
 TEST(tile_order, is_lazy_on_noise_and_dominant_on_a_smooth_surface) {
-  EXPECT_EQ(order_of(noise(257, 257)), TileOrder::kLazyOne);
-  EXPECT_EQ(order_of(dome(257, 257)), TileOrder::kDominant);
+  EXPECT_EQ(order_of(noise(257, 257)), refine::TileOrder::kLazyOne);
+  EXPECT_EQ(order_of(dome(257, 257)), refine::TileOrder::kDominant);
 }
 
 TEST(tile_order, is_dominant_where_the_mesh_is_dense_or_small) {
-  EXPECT_EQ(order_of(noise(257, 257), 0.5), TileOrder::kDominant);
-  EXPECT_EQ(order_of(noise(257, 257), 0.001), TileOrder::kDominant);
-  EXPECT_EQ(order_of(noise(60, 60)), TileOrder::kDominant);
-  EXPECT_EQ(order_of(noise(257, 257), 0), TileOrder::kDominant);
+  EXPECT_EQ(order_of(noise(257, 257), 0.5), refine::TileOrder::kDominant);
+  EXPECT_EQ(order_of(noise(257, 257), 0.001), refine::TileOrder::kDominant);
+  EXPECT_EQ(order_of(noise(60, 60)), refine::TileOrder::kDominant);
+  EXPECT_EQ(order_of(noise(257, 257), 0), refine::TileOrder::kDominant);
 }
 
 TEST(tile_order, is_dominant_where_nothing_can_be_told) {
-  EXPECT_EQ(order_of(noise(16, 4000)), TileOrder::kDominant);  // no sample is far enough from others
+  EXPECT_EQ(order_of(noise(16, 4000)), refine::TileOrder::kDominant);  // no sample is far enough from others
   Field empty = noise(257, 257);
   for (float& sample : empty.samples) sample = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(order_of(empty), TileOrder::kDominant);
+  EXPECT_EQ(order_of(empty), refine::TileOrder::kDominant);
   Field flat = noise(257, 257);
   for (float& sample : flat.samples) sample = 7;
-  EXPECT_EQ(order_of(flat), TileOrder::kDominant);
+  EXPECT_EQ(order_of(flat), refine::TileOrder::kDominant);
 }
 
 TEST(tile_order, does_not_change_with_units_or_nodata_here_and_there) {
   Field scaled = noise(257, 257);
   for (float& sample : scaled.samples) sample *= 0x1p30f;
-  EXPECT_EQ(order_of(scaled), TileOrder::kLazyOne);
+  EXPECT_EQ(order_of(scaled), refine::TileOrder::kLazyOne);
   Field holes = noise(257, 257);
   for (std::size_t i = 0; i < holes.samples.size(); i += 97) holes.samples[i] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(order_of(holes), TileOrder::kLazyOne);
+  EXPECT_EQ(order_of(holes), refine::TileOrder::kLazyOne);
 }
 
 }  // namespace

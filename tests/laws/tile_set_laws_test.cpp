@@ -88,7 +88,7 @@ AnySet any_set(std::mt19937& random, std::size_t count) {
   const bool packs = random() % 2 == 0;
   for (const TileId id : ids) {
     const Bytes bytes = any_bytes(random, 300);
-    set.tiles.push_back({id, packs ? *compress_gzip(bytes) : bytes});
+    set.tiles.push_back({id, packs ? *io::compress_gzip(bytes) : bytes});
   }
   std::shuffle(set.tiles.begin(), set.tiles.end(), random);
   set.files["layer.json"] = bytes_of(R"({"name":"Ж","bounds":[1,2,3,4.5],"scarp":{"generator":"scarp"}})");
@@ -166,7 +166,7 @@ TEST(tile_sets, thousands_of_tiles_have_leaves_in_pmtiles) {
     expect_same(set, scratch.path(std::string("a") + ending));
   }
   const Bytes bytes = read_whole(scratch.path("a.pmtiles"));
-  const auto header = decode_pmtiles_header(bytes);
+  const auto header = io::decode_pmtiles_header(bytes);
   ASSERT_TRUE(header);
   EXPECT_GT(header->leaves.length, 0u);
   EXPECT_LE(header->root.offset + header->root.length, 16384u);
@@ -243,7 +243,7 @@ TEST(tile_sets, folders_of_other_programs_open) {
   const Scratch scratch;
   const std::string folder = scratch.path("ctb");
   write_whole(folder + "/0/0/0.terrain", bytes_of("not packed"));
-  write_whole(folder + "/5/33/24.terrain", *compress_gzip(bytes_of("packed")));
+  write_whole(folder + "/5/33/24.terrain", *io::compress_gzip(bytes_of("packed")));
   write_whole(folder + "/5/033/24.terrain", bytes_of("a second name of a tile"));
   write_whole(folder + "/5/99/24.terrain", bytes_of("no tile of the grid"));
   write_whole(folder + "/layer.json", bytes_of("{\"tilejson\":\"2.1.0\"}"));
@@ -340,35 +340,35 @@ TEST(mbtiles, questions_without_an_end_are_given_up) {
 
 TEST(pmtiles, numbers_are_those_of_the_specification) {
   const TileGrid geographic, mercator{GridKind::kMercator};
-  EXPECT_EQ(pmtiles_number({0, 0, 0}, geographic), 1u);                   // 1/0/0
-  EXPECT_EQ(pmtiles_number({0, 1, 0}, geographic), 4u);                   // 1/1/0
-  EXPECT_EQ(pmtiles_number({1, 0, 1}, geographic), 5u);                   // 2/0/0
-  EXPECT_EQ(pmtiles_number({17, 39, 131068}, geographic), 22906496015u);  // 18/39/3
-  EXPECT_EQ(pmtiles_number({18, 39, (1u << 18) - 4}, mercator), 22906496015u);
+  EXPECT_EQ(io::pmtiles_number({0, 0, 0}, geographic), 1u);                   // 1/0/0
+  EXPECT_EQ(io::pmtiles_number({0, 1, 0}, geographic), 4u);                   // 1/1/0
+  EXPECT_EQ(io::pmtiles_number({1, 0, 1}, geographic), 5u);                   // 2/0/0
+  EXPECT_EQ(io::pmtiles_number({17, 39, 131068}, geographic), 22906496015u);  // 18/39/3
+  EXPECT_EQ(io::pmtiles_number({18, 39, (1u << 18) - 4}, mercator), 22906496015u);
   for (const TileGrid& grid : {geographic, mercator}) {
     std::set<std::uint64_t> numbers;
     for (int z = 0; z < 7; ++z) {
       for (std::uint32_t y = 0; y < grid.rows(z); ++y) {
         for (std::uint32_t x = 0; x < grid.columns(z); ++x) {
-          const std::uint64_t number = pmtiles_number({z, x, y}, grid);
+          const std::uint64_t number = io::pmtiles_number({z, x, y}, grid);
           EXPECT_TRUE(numbers.insert(number).second);
-          EXPECT_EQ(find_pmtiles_id(number, grid), (TileId{z, x, y}));
+          EXPECT_EQ(io::find_pmtiles_id(number, grid), (TileId{z, x, y}));
         }
       }
     }
-    EXPECT_FALSE(find_pmtiles_id(UINT64_MAX, grid));
+    EXPECT_FALSE(io::find_pmtiles_id(UINT64_MAX, grid));
     const TileId last{kMaxTileLevel, grid.columns(kMaxTileLevel) - 1, 0};
-    EXPECT_EQ(find_pmtiles_id(pmtiles_number(last, grid), grid), last);
+    EXPECT_EQ(io::find_pmtiles_id(io::pmtiles_number(last, grid), grid), last);
   }
-  EXPECT_FALSE(find_pmtiles_id(0, geographic));
-  EXPECT_FALSE(find_pmtiles_id(2, geographic));  // 1/0/1, in the southern half of a square world
-  EXPECT_EQ(find_pmtiles_id(0, mercator), (TileId{0, 0, 0}));
+  EXPECT_FALSE(io::find_pmtiles_id(0, geographic));
+  EXPECT_FALSE(io::find_pmtiles_id(2, geographic));  // 1/0/1, in the southern half of a square world
+  EXPECT_EQ(io::find_pmtiles_id(0, mercator), (TileId{0, 0, 0}));
 }
 
 TEST(md5, is_that_of_rfc_1321) {
   const auto hex = [](std::string_view text) {
     std::string digits;
-    for (const std::uint8_t byte : md5_of(text)) {
+    for (const std::uint8_t byte : io::md5_of(text)) {
       digits += "0123456789abcdef"[byte >> 4];
       digits += "0123456789abcdef"[byte & 15];
     }
@@ -381,20 +381,20 @@ TEST(md5, is_that_of_rfc_1321) {
 }
 
 TEST(zip, numbers_beyond_32_bits_are_read_back) {
-  ZipRecord record;
+  io::ZipRecord record;
   record.name = "far/away.glb";
   record.size = record.packed = 77;
   record.offset = 5ull << 32;
   record.checksum = 0x12345678;
   Bytes directory;
-  append_zip_record(directory, record);
+  io::append_zip_record(directory, record);
   const std::uint64_t start = 6ull << 32, size = directory.size(), count = 1;
-  append_zip_end(directory, count, start, size);
-  const auto found = find_zip_directory(directory, start + directory.size());
+  io::append_zip_end(directory, count, start, size);
+  const auto found = io::find_zip_directory(directory, start + directory.size());
   ASSERT_TRUE(found);
   EXPECT_EQ(found->start, start);
   EXPECT_EQ(found->count, count);
-  const auto records = read_zip_directory(directory, found->count);
+  const auto records = io::read_zip_directory(directory, found->count);
   ASSERT_TRUE(records);
   ASSERT_EQ(records->size(), 1u);
   EXPECT_EQ((*records)[0].name, record.name);

@@ -45,8 +45,8 @@ class Slope final : public HeightZero {
 double any_place(double low, double high) { return low + (high - low) * (*rc::gen::inRange(0, 100003)) / 100003.0; }
 
 /// A star around a place, possibly across the antimeridian.
-TileLake any_lake(double level) {
-  TileLake lake;
+tiles::TileLake any_lake(double level) {
+  tiles::TileLake lake;
   lake.level = level;
   lake.rings.emplace_back();
   const double col = any_place(-60, 60), row = any_place(900, 1000);
@@ -61,7 +61,7 @@ TileLake any_lake(double level) {
 
 /// 1 in the polygon, −1 outside, 0 if too close: flatten_lakes() also includes nodes within a 128th of an edge's line,
 /// and just beyond its ends.
-int side_of(const TileLake& lake, double col, double row) {
+int side_of(const tiles::TileLake& lake, double col, double row) {
   bool is_inside = false, is_near = false;
   const auto& ring = lake.rings.front();
   for (const auto& [x, y] : ring) is_near = is_near || (std::abs(x - col) < 42 && std::abs(y - row) < 42);
@@ -82,8 +82,8 @@ std::shared_ptr<TileWaters> any_waters() {
   waters->covered = {-180, -90, 180, 90};
   waters->per_turn = kTurn;
   waters->lakes = {any_lake(300), any_lake(500)};
-  TileRiver river{"",
-                  {{any_place(-60, 60), any_place(900, 1000), 250}, {any_place(-60, 60), any_place(900, 1000), 240}}};
+  tiles::TileRiver river{
+      "", {{any_place(-60, 60), any_place(900, 1000), 250}, {any_place(-60, 60), any_place(900, 1000), 240}}};
   waters->rivers.push_back(std::move(river));
   return waters;
 }
@@ -91,7 +91,7 @@ std::shared_ptr<TileWaters> any_waters() {
 RC_GTEST_PROP(tile_water_laws, a_node_is_the_same_in_every_window, ()) {
   const Land land;
   const auto zero = *rc::gen::arbitrary<bool>() ? std::make_shared<Slope>() : nullptr;
-  const auto nodes = make_watered_source(land, any_waters(), zero);
+  const auto nodes = tiles::make_watered_source(land, any_waters(), zero);
   const NodeWindow whole{kTurn, -128, 832, 256, 256};
   std::vector<float> all(256 * 256);
   RC_ASSERT(nodes->read(whole, all).has_value());
@@ -125,7 +125,7 @@ RC_GTEST_PROP(tile_water_laws, a_node_is_the_same_in_every_window, ()) {
 RC_GTEST_PROP(tile_water_laws, nodes_are_what_the_polygons_say, ()) {
   const Land land;
   const auto waters = any_waters();
-  const auto nodes = make_watered_source(land, waters, nullptr);
+  const auto nodes = tiles::make_watered_source(land, waters, nullptr);
   const NodeWindow window{kTurn, -128, 832, 256, 256};
   std::vector<float> heights(256 * 256);
   RC_ASSERT(nodes->read(window, heights).has_value());
@@ -153,7 +153,7 @@ RC_GTEST_PROP(tile_water_laws, nodes_are_what_the_polygons_say, ()) {
       double rim = -1;
       for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
-          for (const TileLake& lake : waters->lakes) {
+          for (const tiles::TileLake& lake : waters->lakes) {
             const int side = side_of(lake, col + x, row + y);
             if (side == 0) rim = NAN;
             if (side == 1) rim = std::max(rim, lake.level + 0.01);
@@ -170,7 +170,7 @@ TEST(tile_water, nodes_between_those_of_the_waters_are_refused) {
   const auto waters = std::make_shared<TileWaters>();
   waters->per_turn = kTurn;
   waters->lakes = {{"", 300, {{{1, 901}, {9, 901}, {9, 909}, {1, 901}}}}};
-  const auto nodes = make_watered_source(land, waters, nullptr);
+  const auto nodes = tiles::make_watered_source(land, waters, nullptr);
   std::vector<float> heights(16 * 16);
   const NodeWindow same{kTurn, 0, 896, 16, 16}, halves{kTurn / 2, 0, 448, 16, 16};
   for (const NodeWindow& window : {same, halves}) EXPECT_TRUE(nodes->read(window, heights).has_value());

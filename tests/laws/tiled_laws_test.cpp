@@ -23,11 +23,12 @@ using testing::is_same;
 using testing::Relief;
 
 /// A tile's mesh with the border of its neighbours, and a few inner points.
-TilePiece random_piece(std::mt19937& random, const TileWindow& window, const SharedSides& shared, PieceMaker& maker) {
-  TileMesh mesh;
+tin::TilePiece random_piece(std::mt19937& random, const refine::TileWindow& window, const refine::SharedSides& shared,
+                            tin::PieceMaker& maker) {
+  tin::TileMesh mesh;
   mesh.reset(window.cols, window.rows);
-  const auto insert = [&](std::int32_t x, std::int32_t y) { mesh.insert(tile_point(x, y), 0); };
-  for (const BorderLine& line : shared_lines(window, shared)) {
+  const auto insert = [&](std::int32_t x, std::int32_t y) { mesh.insert(geom::tile_point(x, y), 0); };
+  for (const pieces::BorderLine& line : pieces::shared_lines(window, shared)) {
     for (std::int32_t step = 1; step < line.steps; ++step) {
       const std::int32_t x = line.col + (line.is_vertical ? 0 : step), y = line.row + (line.is_vertical ? step : 0);
       if ((x * 7 + y * 13) % 5 < 2) insert(x - window.col, y - window.row);
@@ -39,26 +40,27 @@ TilePiece random_piece(std::mt19937& random, const TileWindow& window, const Sha
   return maker.make(mesh, {window.col, window.row}, window.cols, window.rows);
 }
 
-bool is_on_a_line(const Tiling& tiling, Point a, Point b) {
+bool is_on_a_line(const pieces::Tiling& tiling, Point a, Point b) {
   for (std::size_t i = 0; i < tiling.count(); ++i) {
-    const TileWindow window = tiling.window(i);
+    const refine::TileWindow window = tiling.window(i);
     if ((a.x == b.x && a.x == window.col && a.x > 0) || (a.y == b.y && a.y == window.row && a.y > 0)) return true;
   }
   return false;
 }
 
 /// The seams are the free edges on the tiling's lines between inside triangles, each once.
-std::string verify_seams(const Triangulation& tin, const Tiling& tiling, const std::vector<HalfEdge>& seams) {
-  std::set<HalfEdge> named;
-  for (const HalfEdge h : seams) {
+std::string verify_seams(const tin::Triangulation& tin, const pieces::Tiling& tiling,
+                         const std::vector<tin::HalfEdge>& seams) {
+  std::set<tin::HalfEdge> named;
+  for (const tin::HalfEdge h : seams) {
     if (!named.insert(std::min(h, tin.twin(h))).second) return fmt::format("seam {} is named twice", h);
   }
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const HalfEdge g = tin.twin(h);
-    if (g == kNone || g < h) continue;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::HalfEdge g = tin.twin(h);
+    if (g == tin::kNone || g < h) continue;
     const bool is_free = !tin.is_constrained(h) && !tin.is_outside(h / 3) && !tin.is_outside(g / 3);
     const bool is_seam =
-        is_free && is_on_a_line(tiling, tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h))));
+        is_free && is_on_a_line(tiling, tin.point(tin.origin(h)), tin.point(tin.origin(tin::Triangulation::next(h))));
     if (is_seam != (named.count(h) != 0)) return fmt::format("half-edge {} is {}a seam", h, is_seam ? "" : "no ");
   }
   return "";
@@ -66,20 +68,20 @@ std::string verify_seams(const Triangulation& tin, const Tiling& tiling, const s
 
 RC_GTEST_PROP(assembly, joins_pieces_to_one_sound_triangulation, ()) {
   const auto cols = *rc::gen::inRange(2, 150), rows = *rc::gen::inRange(2, 100);
-  const Tiling tiling(cols, rows, *rc::gen::element(1, 5, 8, 16, 31, 64));
+  const pieces::Tiling tiling(cols, rows, *rc::gen::element(1, 5, 8, 16, 31, 64));
   RC_PRE(tiling.count() < 600u);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  Assembly assembly(tiling.per_row());
-  PieceMaker maker;
+  tin::Assembly assembly(tiling.per_row());
+  tin::PieceMaker maker;
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < tiling.count(); ++i) {
-    const TilePiece piece = random_piece(random, tiling.window(i), tiling.shared(i), maker);
+    const tin::TilePiece piece = random_piece(random, tiling.window(i), tiling.shared(i), maker);
     triangles += piece.outside.size();
     assembly.append(piece);
     RC_ASSERT(assembly.triangle_count() == triangles);
   }
-  std::vector<HalfEdge> seams;
-  const Triangulation tin = assembly.finish(seams);
+  std::vector<tin::HalfEdge> seams;
+  const tin::Triangulation tin = assembly.finish(seams);
   RC_ASSERT(tin.triangle_count() == triangles);
   const std::string unsound = testing::verify_triangulation(tin, cols, rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
@@ -97,8 +99,8 @@ Field any_field() {
                                              *rc::gen::element(0.0, 0.0, 0.02, 0.1, 0.4));
 }
 
-TiledOptions any_options() {
-  TiledOptions options;
+pieces::TiledOptions any_options() {
+  pieces::TiledOptions options;
   options.threshold = *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
   options.tile_side = *rc::gen::element(0, 8, 16, 31, 64);
   options.threads = 2;
@@ -106,17 +108,17 @@ TiledOptions any_options() {
 }
 
 /// A free edge that is not Delaunay although both triangles of the other diagonal would satisfy the bound; "" if none.
-std::string find_needless_edge(const Triangulation& tin, const ErrorMetric& metric) {
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const HalfEdge g = tin.twin(h);
-    if (g == kNone || tin.is_constrained(h) || tin.is_outside(h / 3)) continue;
-    const auto corner = [&](HalfEdge e) { return tin.point(tin.origin(e)); };
-    const Point a = corner(h), b = corner(g), c = corner(Triangulation::previous(h)),
-                d = corner(Triangulation::previous(g));
+std::string find_needless_edge(const tin::Triangulation& tin, const metric::ErrorMetric& metric) {
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const tin::HalfEdge g = tin.twin(h);
+    if (g == tin::kNone || tin.is_constrained(h) || tin.is_outside(h / 3)) continue;
+    const auto corner = [&](tin::HalfEdge e) { return tin.point(tin.origin(e)); };
+    const Point a = corner(h), b = corner(g), c = corner(tin::Triangulation::previous(h)),
+                d = corner(tin::Triangulation::previous(g));
     const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
       return !metric.find_candidate(corners, metric.fit(corners, {}));
     };
-    if (in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a}))
+    if (geom::in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a}))
       return fmt::format("({}, {}) to ({}, {})", a.x, a.y, b.x, b.y);
   }
   return "";
@@ -124,22 +126,23 @@ std::string find_needless_edge(const Triangulation& tin, const ErrorMetric& metr
 
 RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const Field field = any_field();
-  const Raster raster = field.raster();
-  const TiledOptions options = any_options();
-  const auto domain = build_domain(raster, 0, grid_frame(field.rows));
-  auto made = refine_tiled(field.view(), options);
+  const grid::Raster raster = field.raster();
+  const pieces::TiledOptions options = any_options();
+  const auto domain = refine::build_domain(raster, 0, grid_frame(field.rows));
+  auto made = pieces::refine_tiled(field.view(), options);
   RC_ASSERT(made.has_value() == domain.has_value());
   if (!made) {
     RC_ASSERT(made.error().kind == ErrorKind::kInput);
     return;
   }
   RC_ASSERT(made->has_value());
-  Tiled& tiled = **made;
-  Triangulation& tin = tiled.domain.tin;
+  pieces::Tiled& tiled = **made;
+  tin::Triangulation& tin = tiled.domain.tin;
   const std::string unsound = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   if (options.tile_side > 0) {
-    const std::string unsewn = verify_seams(tin, Tiling(field.cols, field.rows, options.tile_side), tiled.seams);
+    const std::string unsewn =
+        verify_seams(tin, pieces::Tiling(field.cols, field.rows, options.tile_side), tiled.seams);
     RC_ASSERT(unsewn == "");
   }
   RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));
@@ -147,8 +150,8 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const std::string broken = testing::find_broken_bound(raster, tin, options.threshold);
   RC_ASSERT(broken == "");
 
-  const HeightMetric metric(raster, options.threshold);
-  release_seams(tin, metric, std::move(tiled.seams));
+  const metric::HeightMetric metric(raster, options.threshold);
+  pieces::release_seams(tin, metric, std::move(tiled.seams));
   const std::string unsound_after = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound_after == "");
   RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));
@@ -157,14 +160,15 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const std::string needless = find_needless_edge(tin, metric);
   RC_ASSERT(needless == "");
 
-  const auto judged = measure(field.view(), freeze(tin, {SampleHeights(raster), {}, grid_frame(field.rows), true}));
+  const auto judged =
+      measure(field.view(), pieces::freeze(tin, {pieces::SampleHeights(raster), {}, grid_frame(field.rows), true}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(judged->max_error <= options.threshold + 1e-9);
-  std::set<Vertex> used;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  std::set<tin::Vertex> used;
+  for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     if (!tin.is_outside(h / 3)) used.insert(tin.origin(h));
   }
   RC_ASSERT(tin.vertex_count() - used.size() == tiled.domain.unused);
@@ -172,13 +176,13 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
 
 RC_GTEST_PROP(tiled, threads_change_nothing, ()) {
   const Field field = any_field();
-  TiledOptions options = any_options();
+  pieces::TiledOptions options = any_options();
   options.threads = 1;
-  const auto first = refine_tiled(field.view(), options);
+  const auto first = pieces::refine_tiled(field.view(), options);
   RC_PRE(first.has_value());
   for (const int threads : {2, 3, 8}) {
     options.threads = threads;
-    const auto again = refine_tiled(field.view(), options);
+    const auto again = pieces::refine_tiled(field.view(), options);
     RC_ASSERT(again.has_value());
     RC_ASSERT(is_same((*again)->domain.tin, (*first)->domain.tin));
     RC_ASSERT((*again)->seams == (*first)->seams);
@@ -191,7 +195,7 @@ TEST(tiled, the_largest_small_raster_keeps_the_bound_at_every_tile_side) {
   for (const double nodata : {0.0, 0.02}) {
     const Field field = testing::random_field(5, 200, 150, Relief::kRidges, nodata);
     for (const std::int32_t side : {8, 31, 64, 512}) {
-      const auto tiled = refine_tiled(field.view(), {.threshold = 3, .threads = 2, .tile_side = side});
+      const auto tiled = pieces::refine_tiled(field.view(), {.threshold = 3, .threads = 2, .tile_side = side});
       ASSERT_TRUE(tiled && *tiled);
       EXPECT_EQ(testing::find_broken_bound(field.raster(), (*tiled)->domain.tin, 3), "") << side;
     }
@@ -201,7 +205,7 @@ TEST(tiled, the_largest_small_raster_keeps_the_bound_at_every_tile_side) {
 TEST(tiled, magnitudes_beyond_float32_products_are_left_to_the_greedy_engine) {
   Field field = testing::random_field(5, 40, 30, Relief::kReal);
   field.samples[444] = 0x1p100f;
-  const auto tiled = refine_tiled(field.view(), {.threshold = 1, .threads = 2, .tile_side = 8});
+  const auto tiled = pieces::refine_tiled(field.view(), {.threshold = 1, .threads = 2, .tile_side = 8});
   ASSERT_TRUE(tiled);
   EXPECT_FALSE(*tiled);
 }
@@ -211,13 +215,13 @@ TEST(tiled, is_cancelled_by_its_callback_after_any_tile) {
   for (int most = 0; most < 4; ++most) {
     int calls = 0;
     double last = 0;
-    TiledOptions options{.threshold = 1, .threads = 3, .tile_side = 8};
+    pieces::TiledOptions options{.threshold = 1, .threads = 3, .tile_side = 8};
     options.progress = [&](double share, std::uint64_t) {
       EXPECT_GT(share, last);
       last = share;
       return calls++ < most;
     };
-    const auto tiled = refine_tiled(field.view(), options);
+    const auto tiled = pieces::refine_tiled(field.view(), options);
     ASSERT_FALSE(tiled);
     EXPECT_EQ(tiled.error().kind, ErrorKind::kCancelled);
     EXPECT_EQ(calls, most + 1);
@@ -237,7 +241,7 @@ TEST(tiled, a_source_that_fails_is_reported_in_its_own_words) {
   HeightField view{nullptr, 60, 50};
   const Broken source;
   view.source = &source;
-  const auto tiled = refine_tiled(view, {.threshold = 1, .threads = 3, .tile_side = 8});
+  const auto tiled = pieces::refine_tiled(view, {.threshold = 1, .threads = 3, .tile_side = 8});
   ASSERT_FALSE(tiled);
   EXPECT_EQ(tiled.error().message, "the file ends early");
 }

@@ -76,21 +76,21 @@ struct Decoded {
 class TileReader {
  public:
   explicit TileReader(const std::vector<std::uint8_t>& glb) {
-    const std::size_t size = load_number<std::uint32_t>(glb.data() + 12);
-    json_ = Json::parse(glb.begin() + 20, glb.begin() + 20 + static_cast<std::ptrdiff_t>(size));
+    const std::size_t size = io::load_number<std::uint32_t>(glb.data() + 12);
+    json_ = io::Json::parse(glb.begin() + 20, glb.begin() + 20 + static_cast<std::ptrdiff_t>(size));
     binary_ = std::span(glb).subspan(28 + size);
-    EXPECT_EQ(load_number<std::uint32_t>(glb.data() + 8), glb.size());
+    EXPECT_EQ(io::load_number<std::uint32_t>(glb.data() + 8), glb.size());
   }
-  const Json& json() const { return json_; }
+  const io::Json& json() const { return json_; }
 
   Decoded decode() {
-    const Json& primitive = json_["meshes"][0]["primitives"][0];
-    const Json& matrix = json_["nodes"][0]["matrix"];
+    const io::Json& primitive = json_["meshes"][0]["primitives"][0];
+    const io::Json& matrix = json_["nodes"][0]["matrix"];
     const double scale = matrix[0];
     EXPECT_EQ(scale, matrix[5]);
     EXPECT_EQ(scale, matrix[10]);
     Decoded tile;
-    const Json& positions = json_["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    const io::Json& positions = json_["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     const bool is_short = positions["componentType"] == 5123;
     const std::vector<std::uint8_t> items = bytes_of(positions);
     // The decoded value is number / 65535 times the scale, so the scale is 65535 steps.
@@ -99,35 +99,35 @@ class TileReader {
     for (std::size_t v = 0; v < positions["count"]; ++v) {
       Point at{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const double number = is_short ? static_cast<double>(load_number<std::uint16_t>(&items[8 * v + 2 * k]))
-                                       : static_cast<double>(load_number<float>(&items[12 * v + 4 * k]));
+        const double number = is_short ? static_cast<double>(io::load_number<std::uint16_t>(&items[8 * v + 2 * k]))
+                                       : static_cast<double>(io::load_number<float>(&items[12 * v + 4 * k]));
         EXPECT_GE(number, positions["min"][k].get<double>());
         EXPECT_LE(number, positions["max"][k].get<double>());
         at[k] = matrix[12 + k].get<double>() + step * number;
       }
       tile.positions.push_back({at[0], -at[2], at[1]});
     }
-    const Json& normals = json_["accessors"][primitive["attributes"]["NORMAL"].get<std::size_t>()];
+    const io::Json& normals = json_["accessors"][primitive["attributes"]["NORMAL"].get<std::size_t>()];
     const bool is_bytes = normals["componentType"] == 5120;
     const std::vector<std::uint8_t> ways = bytes_of(normals);
     for (std::size_t v = 0; v < normals["count"]; ++v) {
       std::array<float, 3> way{};
       for (std::size_t k = 0; k < 3; ++k) {
         way[k] = is_bytes ? static_cast<float>(static_cast<std::int8_t>(ways[4 * v + k])) / 127
-                          : load_number<float>(&ways[12 * v + 4 * k]);
+                          : io::load_number<float>(&ways[12 * v + 4 * k]);
       }
       tile.normals.push_back({way[0], -way[2], way[1]});
     }
     if (primitive["attributes"].contains("TEXCOORD_0")) {
-      const Json& places = json_["accessors"][primitive["attributes"]["TEXCOORD_0"].get<std::size_t>()];
+      const io::Json& places = json_["accessors"][primitive["attributes"]["TEXCOORD_0"].get<std::size_t>()];
       EXPECT_TRUE(places["normalized"].get<bool>());
       const std::vector<std::uint8_t> shares = bytes_of(places);
       for (std::size_t v = 0; v < places["count"]; ++v)
-        tile.places.push_back({load_number<std::uint16_t>(&shares[4 * v]) / 65535.0,
-                               load_number<std::uint16_t>(&shares[4 * v + 2]) / 65535.0});
+        tile.places.push_back({io::load_number<std::uint16_t>(&shares[4 * v]) / 65535.0,
+                               io::load_number<std::uint16_t>(&shares[4 * v + 2]) / 65535.0});
     }
     tile.triangles = indices_of(primitive["indices"]);
-    const Json& edges = primitive["extensions"]["CESIUM_tile_edges"];
+    const io::Json& edges = primitive["extensions"]["CESIUM_tile_edges"];
     tile.west = indices_of(edges["left"]);
     tile.south = indices_of(edges["bottom"]);
     tile.east = indices_of(edges["right"]);
@@ -136,26 +136,27 @@ class TileReader {
   }
 
  private:
-  std::vector<std::uint32_t> indices_of(const Json& accessor) {
-    const Json& described = json_["accessors"][accessor.get<std::size_t>()];
+  std::vector<std::uint32_t> indices_of(const io::Json& accessor) {
+    const io::Json& described = json_["accessors"][accessor.get<std::size_t>()];
     const std::vector<std::uint8_t> items = bytes_of(described);
     EXPECT_EQ(described["componentType"], 5123);
     std::vector<std::uint32_t> indices;
-    for (std::size_t k = 0; k < described["count"]; ++k) indices.push_back(load_number<std::uint16_t>(&items[2 * k]));
+    for (std::size_t k = 0; k < described["count"]; ++k)
+      indices.push_back(io::load_number<std::uint16_t>(&items[2 * k]));
     return indices;
   }
-  std::vector<std::uint8_t> bytes_of(const Json& accessor) {
-    const Json& view = json_["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+  std::vector<std::uint8_t> bytes_of(const io::Json& accessor) {
+    const io::Json& view = json_["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     std::vector<std::uint8_t> items;
     if (view.contains("extensions")) {
-      const Json& packed = view["extensions"]["EXT_meshopt_compression"];
-      MeshoptStream stream;
+      const io::Json& packed = view["extensions"]["EXT_meshopt_compression"];
+      io::MeshoptStream stream;
       stream.bytes = binary_.subspan(packed["byteOffset"], packed["byteLength"]);
-      stream.mode = packed["mode"] == "ATTRIBUTES" ? MeshoptMode::kAttributes : MeshoptMode::kTriangles;
-      stream.filter = packed.contains("filter") ? MeshoptFilter::kOctahedral : MeshoptFilter::kNone;
+      stream.mode = packed["mode"] == "ATTRIBUTES" ? io::MeshoptMode::kAttributes : io::MeshoptMode::kTriangles;
+      stream.filter = packed.contains("filter") ? io::MeshoptFilter::kOctahedral : io::MeshoptFilter::kNone;
       stream.count = packed["count"];
       stream.stride = packed["byteStride"];
-      EXPECT_EQ(decode_meshopt(stream, items), nullptr);
+      EXPECT_EQ(io::decode_meshopt(stream, items), nullptr);
     } else {
       const auto bytes = binary_.subspan(view["byteOffset"], view["byteLength"]);
       items.assign(bytes.begin(), bytes.end());
@@ -165,7 +166,7 @@ class TileReader {
     return items;
   }
 
-  Json json_;
+  io::Json json_;
   std::span<const std::uint8_t> binary_;
 };
 
@@ -215,7 +216,7 @@ Made make_set(const DegreeBox& covered, int threads) {
   PyramidReport told = made.report;
   EXPECT_TRUE(sink->put_files(told, {}));
   for (std::size_t z = 0; z < told.levels.size(); ++z)
-    EXPECT_EQ(told.levels[z].bound, made.report.levels[z].bound + lattice_error(made.plan, static_cast<int>(z)));
+    EXPECT_EQ(told.levels[z].bound, made.report.levels[z].bound + io::lattice_error(made.plan, static_cast<int>(z)));
   return made;
 }
 
@@ -291,10 +292,10 @@ TEST(tiles3d_laws, uncompressed_tiles_have_the_same_triangles) {
     const PyramidPlan coarse = plan_of({-180, -90, 180, 90}, id.z, 64);
     const auto tile = make_tile(coarse, id, Land({-180, -90, 180, 90}));
     ASSERT_TRUE(tile) << tile.error().message;
-    const EarthTile placed = place_on_earth(*tile, plan);
-    TileGlbOptions plain;
+    const io::EarthTile placed = io::place_on_earth(*tile, plan);
+    io::TileGlbOptions plain;
     plain.compress = false;
-    const auto packed = encode_tile_glb(placed), unpacked = encode_tile_glb(placed, plain);
+    const auto packed = io::encode_tile_glb(placed), unpacked = io::encode_tile_glb(placed, plain);
     ASSERT_TRUE(packed && unpacked);
     const Decoded one = decode(*packed), other = decode(*unpacked);
     const auto triangles_of = [](const Decoded& from) {
@@ -314,7 +315,7 @@ TEST(tiles3d_laws, uncompressed_tiles_have_the_same_triangles) {
     };
     EXPECT_EQ(triangles_of(one), triangles_of(other));
     EXPECT_EQ(triangles_of(one).size(), tile->triangles.size() / 3);
-    if (kHasMeshoptCodec) {
+    if (io::kHasMeshoptCodec) {
       EXPECT_LT(2 * packed->size(), unpacked->size());
     }
   }
@@ -359,9 +360,9 @@ TEST(tiles3d_laws, every_node_is_within_the_bound_of_the_decoded_triangles) {
     const Land land({-180, -90, 180, 90});
     const auto tile = make_tile(plan, id, land);
     ASSERT_TRUE(tile) << tile.error().message;
-    const Decoded mesh = decode(*encode_tile_glb(place_on_earth(*tile, plan)));
-    const double bound = tile->bound() + lattice_error(plan, id.z);
-    EXPECT_LE(lattice_error(plan, id.z), plan.levels[static_cast<std::size_t>(id.z)].max_error / 32);
+    const Decoded mesh = decode(*io::encode_tile_glb(io::place_on_earth(*tile, plan)));
+    const double bound = tile->bound() + io::lattice_error(plan, id.z);
+    EXPECT_LE(io::lattice_error(plan, id.z), plan.levels[static_cast<std::size_t>(id.z)].max_error / 32);
     const std::int64_t steps = plan.cells, per_turn = steps << (id.z + 1);
     double worst = 0;
     for (std::int64_t j = 0; j <= steps; ++j) {
@@ -391,13 +392,13 @@ class SubtreeReader {
  public:
   explicit SubtreeReader(const std::vector<std::uint8_t>& bytes) {
     EXPECT_EQ(std::memcmp(bytes.data(), "subt", 4), 0);
-    const auto json = load_number<std::uint64_t>(&bytes[8]), binary = load_number<std::uint64_t>(&bytes[16]);
+    const auto json = io::load_number<std::uint64_t>(&bytes[8]), binary = io::load_number<std::uint64_t>(&bytes[16]);
     EXPECT_EQ(json % 8, 0u);
     EXPECT_EQ(24 + json + binary, bytes.size());
-    json_ = Json::parse(bytes.begin() + 24, bytes.begin() + 24 + static_cast<std::ptrdiff_t>(json));
+    json_ = io::Json::parse(bytes.begin() + 24, bytes.begin() + 24 + static_cast<std::ptrdiff_t>(json));
     binary_ = std::span(bytes).subspan(24 + json);
   }
-  std::vector<bool> bits(const Json& availability, std::size_t size) const {
+  std::vector<bool> bits(const io::Json& availability, std::size_t size) const {
     std::vector<bool> all(size);
     if (availability.contains("constant")) {
       all.assign(size, availability["constant"] == 1);
@@ -412,25 +413,25 @@ class SubtreeReader {
   std::vector<double> numbers(const char* property) const {
     const auto bytes = view(json_["propertyTables"][0]["properties"][property]["values"]);
     std::vector<double> all;
-    for (std::size_t k = 0; k < bytes.size(); k += 8) all.push_back(load_number<double>(&bytes[k]));
+    for (std::size_t k = 0; k < bytes.size(); k += 8) all.push_back(io::load_number<double>(&bytes[k]));
     return all;
   }
-  const Json& json() const { return json_; }
+  const io::Json& json() const { return json_; }
 
  private:
-  std::span<const std::uint8_t> view(const Json& number) const {
-    const Json& described = json_["bufferViews"][number.get<std::size_t>()];
+  std::span<const std::uint8_t> view(const io::Json& number) const {
+    const io::Json& described = json_["bufferViews"][number.get<std::size_t>()];
     EXPECT_EQ(described["byteOffset"].get<std::size_t>() % 8, 0u);
     return binary_.subspan(described["byteOffset"], described["byteLength"]);
   }
-  Json json_;
+  io::Json json_;
   std::span<const std::uint8_t> binary_;
 };
 
 TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
   const Made made = make_set(kIsland, 2);
-  const Json tileset = Json::parse(made.set.files.at("tileset.json"));
-  std::map<Key, TileFacts> told;
+  const io::Json tileset = io::Json::parse(made.set.files.at("tileset.json"));
+  std::map<Key, io::TileFacts> told;
   for (std::uint32_t root = 0; root < 2; ++root) {
     std::vector<Key> pending{{0, 0, 0}};
     while (!pending.empty()) {
@@ -460,7 +461,7 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
             pending.emplace_back(z + 5, tile_y, tile_x);
             continue;
           }
-          TileFacts facts{low[row], high[row], {}, {}};
+          io::TileFacts facts{low[row], high[row], {}, {}};
           std::copy_n(&sphere[4 * row], 4, facts.sphere.begin());
           std::copy_n(&horizon[3 * row], 3, facts.horizon_point.begin());
           ++row;
@@ -477,8 +478,8 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
                high = tileset["root"]["boundingVolume"]["region"][5];
   for (const auto& [key, bytes] : made.set.tiles) {
     ASSERT_EQ(told.count(key), 1u);
-    const TileFacts& facts = told[key];
-    EXPECT_EQ(facts, *read_tile_facts(bytes));
+    const io::TileFacts& facts = told[key];
+    EXPECT_EQ(facts, *io::read_tile_facts(bytes));
     EXPECT_LE(low, facts.min_height);
     EXPECT_GE(high, facts.max_height);
     for (const Point& at : decode(bytes).positions)
@@ -489,12 +490,12 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
   const double error = tileset["root"]["children"][0]["geometricError"];
   for (std::size_t z = 0; z < made.report.levels.size(); ++z) {
     EXPECT_GE(std::ldexp(error, -static_cast<int>(z)),
-              made.report.levels[z].bound + lattice_error(made.plan, static_cast<int>(z)));
+              made.report.levels[z].bound + io::lattice_error(made.plan, static_cast<int>(z)));
   }
 }
 
 /// An image whose colours encode the place of each pixel's middle.
-class PlaceImage final : public GlobeImage {
+class PlaceImage final : public io::GlobeImage {
  public:
   explicit PlaceImage(double per_degree) : per_degree_(per_degree) {}
   DegreeBox covered() const override { return {-180, -90, 180, 90}; }
@@ -523,7 +524,7 @@ TEST(tiles3d_laws, a_texture_has_a_pixel_more_on_each_side_and_as_many_as_the_im
                                                                                      {0.5, 0, 256}}) {
     const PlaceImage image(per_degree);
     const TileId id{z, 1, 0};
-    const auto texture = make_tile_texture(image, ImageFormat::kJpeg, plan, id);
+    const auto texture = jobs::make_tile_texture(image, ImageFormat::kJpeg, plan, id);
     ASSERT_TRUE(texture && *texture);
     EXPECT_EQ((*texture)->side, side) << per_degree << " " << z;
     const DegreeBox tile = plan.grid.bounds_of(id);
@@ -538,12 +539,12 @@ TEST(tiles3d_laws, vertices_lie_in_the_texture_where_they_lie_in_the_tile) {
   const PyramidPlan plan = plan_of({-180, -90, 180, 90}, 3, 16);
   const auto tile = make_tile(plan, {3, 5, 4}, Land({-180, -90, 180, 90}));
   ASSERT_TRUE(tile);
-  const EarthTile placed = place_on_earth(*tile, plan);
+  const io::EarthTile placed = io::place_on_earth(*tile, plan);
   for (const bool compress : {true, false}) {
-    TileGlbOptions options;
+    io::TileGlbOptions options;
     options.compress = compress;
-    options.texture = TileTexture{{1, 2, 3}, ImageFormat::kPng, 256};
-    const auto glb = encode_tile_glb(placed, options);
+    options.texture = io::TileTexture{{1, 2, 3}, ImageFormat::kPng, 256};
+    const auto glb = io::encode_tile_glb(placed, options);
     ASSERT_TRUE(glb) << glb.error().message;
     TileReader reader(*glb);
     const Decoded decoded = reader.decode();
@@ -561,7 +562,7 @@ TEST(tiles3d_laws, vertices_lie_in_the_texture_where_they_lie_in_the_tile) {
     for (std::size_t v = 0; v < tile->u.size(); ++v)
       wanted.insert({thousandths(tile->u[v] / 1000.0), thousandths(tile->v[v] / 1000.0)});
     EXPECT_EQ(found, wanted);
-    EXPECT_EQ(encode_tile_glb(placed, options).value(), *glb);
+    EXPECT_EQ(io::encode_tile_glb(placed, options).value(), *glb);
   }
 }
 
@@ -569,15 +570,15 @@ TEST(tiles3d_laws, facts_are_read_from_nothing_else) {
   const PyramidPlan plan = plan_of({-180, -90, 180, 90}, 0, 16);
   const auto tile = make_tile(plan, {0, 0, 0}, Land({-180, -90, 180, 90}));
   ASSERT_TRUE(tile);
-  const std::vector<std::uint8_t> good = *encode_tile_glb(place_on_earth(*tile, plan));
-  ASSERT_TRUE(read_tile_facts(good));
-  for (std::size_t size = 0; size < 700; ++size) EXPECT_FALSE(read_tile_facts(std::span(good).first(size)));
+  const std::vector<std::uint8_t> good = *io::encode_tile_glb(io::place_on_earth(*tile, plan));
+  ASSERT_TRUE(io::read_tile_facts(good));
+  for (std::size_t size = 0; size < 700; ++size) EXPECT_FALSE(io::read_tile_facts(std::span(good).first(size)));
   std::vector<std::uint8_t> other = good;
   const char name[] = "horizon_point";
   const auto at = std::search(other.begin(), other.end(), name, name + 13);
   ASSERT_NE(at, other.end());
   *at = 'x';
-  EXPECT_FALSE(read_tile_facts(other));
+  EXPECT_FALSE(io::read_tile_facts(other));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ bool are_same(const std::vector<float>& a, const std::vector<float>& b) {
 
 std::vector<float> samples_of(const OwnedHeightField& field) {
   std::vector<float> samples(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
-  RC_ASSERT(read_window(field, 0, 0, field.cols, field.rows, samples.data(), field.cols).has_value());
+  RC_ASSERT(grid::read_window(field, 0, 0, field.cols, field.rows, samples.data(), field.cols).has_value());
   return samples;
 }
 
@@ -122,13 +122,13 @@ class SlowWater {
   explicit SlowWater(const Field& field) : field_(field), is_water_(field.samples.size(), false) {}
 
   void add(Lake& lake) {
-    LineRuns runs(grid_frame(field_.rows).affine, field_.cols, field_.rows);
+    grid::LineRuns runs(grid_frame(field_.rows).affine, field_.cols, field_.rows);
     runs.add_polygons(lake.shore);
     for (const Line& ring : lake.shore) runs.add_course(ring, 1.0 / 128);
-    const SampleSet marks(runs.runs(), field_.rows);
+    const grid::SampleSet marks(runs.runs(), field_.rows);
     lake.samples = lake.raised = 0;
     lake.largest_change = 0;
-    for (const SampleRun& run : runs.runs()) {
+    for (const grid::SampleRun& run : runs.runs()) {
       for (std::int32_t x = run.begin; x < run.end; ++x) {
         is_water_[index(x, run.row)] = true;
         lake.samples += put(index(x, run.row), static_cast<float>(lake.level), lake);
@@ -146,7 +146,7 @@ class SlowWater {
 
  private:
   std::size_t index(std::int32_t x, std::int32_t y) const { return static_cast<std::size_t>(y * field_.cols + x); }
-  bool is_beside(const SampleSet& marks, std::int32_t col, std::int32_t row) const {
+  bool is_beside(const grid::SampleSet& marks, std::int32_t col, std::int32_t row) const {
     for (std::int32_t y = std::max(row - 1, 0); y <= std::min(row + 1, field_.rows - 1); ++y) {
       for (std::int32_t x = std::max(col - 1, 0); x <= std::min(col + 1, field_.cols - 1); ++x) {
         if (marks.has({x, y})) return true;
@@ -187,7 +187,7 @@ RC_GTEST_PROP(water, in_a_source_is_that_in_memory, ()) {
   const auto cols = *rc::gen::inRange(1, field.cols - col + 1), rows = *rc::gen::inRange(1, field.rows - row + 1);
   std::vector<float> window(static_cast<std::size_t>(cols * rows)), wanted(window);
   RC_ASSERT(streamed.field.source->read(col, row, cols, rows, window.data(), cols).has_value());
-  RC_ASSERT(read_window(held.field, col, row, cols, rows, wanted.data(), cols).has_value());
+  RC_ASSERT(grid::read_window(held.field, col, row, cols, rows, wanted.data(), cols).has_value());
   RC_ASSERT(are_same(window, wanted));
 }
 
@@ -243,7 +243,7 @@ std::vector<Lake> flood_flats(const Field& field, std::uint64_t min_samples) {
     Lake flat;
     flat.level = field.samples[index(first)];
     flat.name = "flat at column " + std::to_string(first.x) + ", row " + std::to_string(first.y);
-    for (const auto& polygon : trace_outline(Raster{alone.data(), field.cols, field.rows})) {
+    for (const auto& polygon : grid::trace_outline(grid::Raster{alone.data(), field.cols, field.rows})) {
       Line ring;
       ring.name = flat.name;
       ring.role = flat.shore.empty() ? LineRole::kOuter : LineRole::kHole;

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   for (const std::string& name : names) {
     std::ifstream file(std::filesystem::path(argv[1]) / name, std::ios::binary);
     const std::vector<std::uint8_t> packed{std::istreambuf_iterator<char>(file), {}};
-    const auto bytes = scarp::decompress_gzip(packed, 1 << 28);
+    const auto bytes = scarp::io::decompress_gzip(packed, 1 << 28);
     if (!bytes) return complain(bytes.error());
     const auto mesh = scarp::decode_quantized_mesh(*bytes, name);
     if (!mesh) return complain(mesh.error());

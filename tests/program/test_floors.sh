@@ -27,6 +27,7 @@ expect_fault() {
 
 expect_fault src/tin/triangulation.h '#include "refine/refinement.h"' 'a step upwards from tin (floor 2) to refine (floor 3)'
 expect_fault src/geom/plane.h '#include "grid/raster.h"' 'strangers on floor 1'
+expect_fault src/geom/plane.cpp 'namespace scarp::tin {' 'the names of this room are in scarp::geom'
 expect_fault src/tin/triangulation.cpp '#include "scarp/height_field.h"\nauto f() { return grid_frame(2); }' 'grid implements: tin must not know grid'
 expect_fault src/pieces/plan.cpp '#include "scarp/simplify.h"\nstruct Holder { Refiner* of; };' 'a step upwards from pieces (floor 5) to simplify (floor 6)'
 expect_fault src/io/tiles/md5.cpp '#include "scarp/tile.h"\nauto f(PyramidPlan p) { return find_blocks(p); }' 'a step upwards from io (floor 3) to tiles/pyramid (floor 8)'

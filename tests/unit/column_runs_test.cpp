@@ -15,17 +15,17 @@ TEST(column_runs, know_the_steps_to_the_next_sample_above_or_below) {
   const auto below = [&](int n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
   for (int trial = 0; trial < 200; ++trial) {
     const std::int32_t cols = 1 + below(30), rows = 1 + below(20);
-    SampleRuns runs;
+    grid::SampleRuns runs;
     for (std::int32_t k = below(40); k > 0; --k) {
       const std::int32_t begin = below(cols);
       runs.add({below(rows), begin, begin + 1 + below(cols - begin)});
     }
     runs.merge();
-    const SampleSet set(runs.all(), rows);
-    const ColumnRuns columns(runs.all(), cols);
+    const grid::SampleSet set(runs.all(), rows);
+    const grid::ColumnRuns columns(runs.all(), cols);
     for (std::int32_t x = 0; x < cols; ++x) {
       const std::int32_t start = below(rows);
-      ColumnWalk walk(columns.column(x), start);
+      grid::ColumnWalk walk(columns.column(x), start);
       for (std::int32_t y = start; y < rows; ++y) {
         std::int32_t wanted = -1;
         for (std::int32_t v = 0; v < rows; ++v) {
@@ -38,10 +38,10 @@ TEST(column_runs, know_the_steps_to_the_next_sample_above_or_below) {
 }
 
 TEST(column_runs, are_as_many_as_the_outline_is_long) {
-  SampleRuns runs;
+  grid::SampleRuns runs;
   for (std::int32_t y = 0; y < 1000; ++y) runs.add({y, 10, 90});
   runs.merge();
-  const ColumnRuns columns(runs.all(), 100);
+  const grid::ColumnRuns columns(runs.all(), 100);
   EXPECT_TRUE(columns.column(9).empty());
   ASSERT_EQ(columns.column(10).size(), 1u);
   EXPECT_EQ(columns.column(10).front().end, 1000);

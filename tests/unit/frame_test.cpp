@@ -10,7 +10,7 @@
 namespace scarp {
 namespace {
 
-constexpr Ellipsoid kWgs84{6378137, 298.257223563};
+constexpr grid::Ellipsoid kWgs84{6378137, 298.257223563};
 constexpr double kDegree = std::numbers::pi / 180;
 
 bool is_float32(double v) { return static_cast<double>(static_cast<float>(v)) == v; }
@@ -70,13 +70,13 @@ TEST(Frame, ExactnessKnowsCellSizes) {
 
 TEST(LocalFrame, MetresPerDegreeAreTheTextbooks) {
   // Lengths of a degree on WGS 84 from tables.
-  const auto equator = metres_per_radian(kWgs84, 0);
+  const auto equator = grid::metres_per_radian(kWgs84, 0);
   EXPECT_NEAR(equator.east * kDegree, 111319.49, 0.01);
   EXPECT_NEAR(equator.north * kDegree, 110574.28, 0.01);
-  const auto middle = metres_per_radian(kWgs84, 45 * kDegree);
+  const auto middle = grid::metres_per_radian(kWgs84, 45 * kDegree);
   EXPECT_NEAR(middle.east * kDegree, 78846.835, 0.01);
   EXPECT_NEAR(middle.north * kDegree, 111131.78, 0.01);
-  const auto moon = metres_per_radian({1737400, 0}, 60 * kDegree);
+  const auto moon = grid::metres_per_radian({1737400, 0}, 60 * kDegree);
   EXPECT_NEAR(moon.north, 1737400, 1e-6);
   EXPECT_NEAR(moon.east, 1737400 * 0.5, 1e-6);
 }
@@ -89,7 +89,7 @@ TEST(LocalFrame, EverySampleIsExactlyAFloat32) {
     const std::array<double, 4> linear{cell_x * std::cos(turn), cell_y * std::sin(turn), cell_x * std::sin(turn),
                                        -cell_y * std::cos(turn)};
     Frame frame;
-    frame.affine = centred_affine(linear, cols, rows);
+    frame.affine = grid::centred_affine(linear, cols, rows);
     RC_ASSERT(frame_origin(frame, cols, rows) == (std::array<double, 2>{0, 0}));
     RC_ASSERT(offsets_are_exact(frame, cols, rows));
     for (int k = 0; k < 200; ++k) {
@@ -130,7 +130,7 @@ TEST(LocalFrame, IsMadeOfDegreesAlone) {
 }
 
 TEST(LocalFrame, KeepsCellsThatAreExactAlready) {
-  EXPECT_EQ(centred_affine({30, 0, 0, -30}, 1197, 643), (std::array<double, 6>{-17940, 30, 0, 9630, 0, -30}));
+  EXPECT_EQ(grid::centred_affine({30, 0, 0, -30}, 1197, 643), (std::array<double, 6>{-17940, 30, 0, 9630, 0, -30}));
 }
 
 }  // namespace

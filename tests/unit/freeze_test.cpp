@@ -32,7 +32,7 @@ class Bent final : public PointTransform {
 
 struct Scene {
   std::vector<float> samples;
-  Triangulation tin{kCols, kRows};
+  tin::Triangulation tin{kCols, kRows};
 
   /// `with_outside`: marks the left part outside, including corners of the rectangle.
   explicit Scene(bool with_outside) {
@@ -42,23 +42,23 @@ struct Scene {
       const Point p{static_cast<std::int32_t>(random() % kCols), static_cast<std::int32_t>(random() % kRows)};
       tin.insert(p, tin.locate(p, tin.last_touched()));
     }
-    for (Triangle t = 0; with_outside && t < tin.triangle_count(); ++t) {
+    for (tin::Triangle t = 0; with_outside && t < tin.triangle_count(); ++t) {
       const auto [a, b, c] = tin.corners(t);
       if (a.x + b.x + c.x < 150) tin.set_outside(t, true);
     }
   }
-  SampleHeights heights() const { return SampleHeights(Raster{samples.data(), kCols, kRows}); }
+  pieces::SampleHeights heights() const { return pieces::SampleHeights(grid::Raster{samples.data(), kCols, kRows}); }
   /// Arrays cannot be copied.
-  Triangulation copy() const {
-    Triangulation::Arrays arrays;
-    for (Vertex v = 0; v < tin.vertex_count(); ++v) arrays.points.push_back(tin.point(v));
-    for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+  tin::Triangulation copy() const {
+    tin::Triangulation::Arrays arrays;
+    for (tin::Vertex v = 0; v < tin.vertex_count(); ++v) arrays.points.push_back(tin.point(v));
+    for (tin::HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
       arrays.corners.push_back(tin.origin(h));
       arrays.twins.push_back(tin.twin(h));
     }
-    for (Triangle t = 0; t < tin.triangle_count(); ++t)
-      arrays.flags.push_back(tin.is_outside(t) ? Triangulation::Arrays::kOutside : std::uint8_t{0});
-    return Triangulation(std::move(arrays));
+    for (tin::Triangle t = 0; t < tin.triangle_count(); ++t)
+      arrays.flags.push_back(tin.is_outside(t) ? tin::Triangulation::Arrays::kOutside : std::uint8_t{0});
+    return tin::Triangulation(std::move(arrays));
   }
 };
 
@@ -82,17 +82,17 @@ TEST(freeze, melts_down_to_the_same_mesh_for_any_number_of_threads) {
   for (const bool with_outside : {false, true}) {
     if (testing::kIsSanitized && !with_outside) continue;
     const Scene scene(with_outside);
-    const SampleHeights heights = scene.heights();
-    const VertexLattice lattice;
+    const pieces::SampleHeights heights = scene.heights();
+    const grid::VertexLattice lattice;
     for (const Frame& frame : frames()) {
       for (const bool rounds : {false, true}) {
-        const VertexPositions way{heights, lattice, frame, rounds};
-        Mesh frozen = freeze(scene.tin, way);
-        expect_same(freeze(scene.tin, way, 4), frozen);
-        expect_same(MeltDown(scene.copy(), way, 4).finish(), frozen);
+        const pieces::VertexPositions way{heights, lattice, frame, rounds};
+        Mesh frozen = pieces::freeze(scene.tin, way);
+        expect_same(pieces::freeze(scene.tin, way, 4), frozen);
+        expect_same(pieces::MeltDown(scene.copy(), way, 4).finish(), frozen);
         optimize_order(frozen);
         for (const int threads : {1, 4}) {
-          MeltDown melting(scene.copy(), way, threads);
+          pieces::MeltDown melting(scene.copy(), way, threads);
           melting.order();
           EXPECT_EQ(melting.vertex_count(), frozen.vertex_count());
           EXPECT_EQ(melting.triangle_count(), frozen.triangle_count());
@@ -105,8 +105,8 @@ TEST(freeze, melts_down_to_the_same_mesh_for_any_number_of_threads) {
 
 TEST(freeze, rounds_every_coordinate_to_float32) {
   const Scene scene(false);
-  const SampleHeights heights = scene.heights();
-  const VertexLattice lattice;
+  const pieces::SampleHeights heights = scene.heights();
+  const grid::VertexLattice lattice;
   for (const Frame& frame : frames()) {
     const auto count_rounded = [&](const Mesh& mesh) {
       std::array<std::size_t, 3> counts{};
@@ -116,23 +116,23 @@ TEST(freeze, rounds_every_coordinate_to_float32) {
     };
     const std::size_t all = scene.tin.vertex_count();
     const std::array<std::size_t, 3> every{all, all, all};
-    EXPECT_EQ(count_rounded(freeze(scene.tin, {heights, lattice, frame, true})), every);
-    EXPECT_EQ(count_rounded(MeltDown(scene.copy(), {heights, lattice, frame, true}, 1).finish()), every);
-    EXPECT_LT(count_rounded(freeze(scene.tin, {heights, lattice, frame, false}))[0], all);
+    EXPECT_EQ(count_rounded(pieces::freeze(scene.tin, {heights, lattice, frame, true})), every);
+    EXPECT_EQ(count_rounded(pieces::MeltDown(scene.copy(), {heights, lattice, frame, true}, 1).finish()), every);
+    EXPECT_LT(count_rounded(pieces::freeze(scene.tin, {heights, lattice, frame, false}))[0], all);
   }
 }
 
 TEST(freeze, knows_the_points_of_its_vertices) {
   const Scene scene(true);
-  const SampleHeights heights = scene.heights();
-  const VertexLattice lattice;
+  const pieces::SampleHeights heights = scene.heights();
+  const grid::VertexLattice lattice;
   const Frame frame = grid_frame(kRows);
-  const VertexPositions way{heights, lattice, frame, true};
-  MeltDown melting(scene.copy(), way, 1);
+  const pieces::VertexPositions way{heights, lattice, frame, true};
+  pieces::MeltDown melting(scene.copy(), way, 1);
   melting.order();
-  const Mesh ordered = melting.finish(), frozen = freeze(scene.tin, way);
+  const Mesh ordered = melting.finish(), frozen = pieces::freeze(scene.tin, way);
   for (const auto& [mesh, at] :
-       {std::pair(ordered, melting.points()), std::pair(frozen, frozen_points(scene.tin, lattice))}) {
+       {std::pair(ordered, melting.points()), std::pair(frozen, pieces::frozen_points(scene.tin, lattice))}) {
     ASSERT_EQ(at.points.size(), mesh.vertex_count());
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const std::array<double, 3> place = mesh.vertex(v);

@@ -150,9 +150,9 @@ TEST(GlbCompression, OrdersTrianglesForTheCodec) {
   std::iota(vertices.begin(), vertices.end(), 0);
   const std::vector<std::uint16_t> given(ordered.triangles.begin(), ordered.triangles.end());
   std::vector<std::uint16_t> corners = given;
-  order_for_codec(vertices, corners);
-  EXPECT_LT(encode_meshopt_triangles(corners, vertices.size()).size(),
-            0.9 * static_cast<double>(encode_meshopt_triangles(given, vertices.size()).size()));
+  io::order_for_codec(vertices, corners);
+  EXPECT_LT(io::encode_meshopt_triangles(corners, vertices.size()).size(),
+            0.9 * static_cast<double>(io::encode_meshopt_triangles(given, vertices.size()).size()));
   std::vector<std::uint32_t> back;
   for (const std::uint16_t corner : corners) back.push_back(vertices[corner]);
   EXPECT_EQ(sorted(back), sorted(ordered.triangles));
@@ -268,7 +268,7 @@ TEST(GlbCompression, UndoesTheExponentialFilter) {
     const Bytes word = number(digits, power);
     items.insert(items.end(), word.begin(), word.end());
   }
-  const Bytes stream = encode_meshopt_attributes(items, 12);
+  const Bytes stream = io::encode_meshopt_attributes(items, 12);
   const json position = {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}};
   const json packing = {{"byteStride", 12}, {"count", 3}, {"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}};
   const auto mesh = decode_mesh(foreign(position, stream, packing, {{"mesh", 0}}), "x.glb");

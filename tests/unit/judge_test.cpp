@@ -48,10 +48,10 @@ TEST(Judge, WeighsByAMask) {
   }
   const double bound = largest(weighed) / 2;
   for (const double value : weighed) over += value > bound * (1 + 1e-6);
-  JudgeOptions options;
+  judge::JudgeOptions options;
   options.tolerances.weights = mask;
   options.max_error = bound;
-  const auto judged = judge_mesh(given.terrain.view(), given.mesh, options);
+  const auto judged = judge::judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(judged) << judged.error().message;
   ASSERT_TRUE(judged->weighted);
   EXPECT_EQ(judged->weighted->largest.value, largest(weighed));
@@ -75,9 +75,9 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
     over += ratios[k] > 1 + 1e-6;
     without += tolerance[k] == kNoBound;
   }
-  JudgeOptions options;
+  judge::JudgeOptions options;
   options.tolerances.values = tolerance;
-  const auto held = judge_mesh(given.terrain.view(), given.mesh, options);
+  const auto held = judge::judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(held) << held.error().message;
   EXPECT_EQ(held->weighted->largest.value, largest(ratios));
   EXPECT_EQ(held->weighted->over, over);
@@ -89,7 +89,7 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
   options.tolerances.values = {};
   const ArrayBounds in_windows(tolerance, field.cols);
   options.tolerances.source = &in_windows;
-  const auto streamed = judge_mesh(with_source(field, heights), given.mesh, options);
+  const auto streamed = judge::judge_mesh(with_source(field, heights), given.mesh, options);
   ASSERT_TRUE(streamed) << streamed.error().message;
   EXPECT_EQ(streamed->weighted->largest.value, held->weighted->largest.value);
   EXPECT_EQ(streamed->weighted->bounded.at, held->weighted->bounded.at);
@@ -100,7 +100,7 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
   EXPECT_EQ(streamed->bounded.at, held->bounded.at);
   // A bound of all samples covers each of them.
   options.max_error = 100;
-  EXPECT_EQ(judge_mesh(with_source(field, heights), given.mesh, options)->ignored, 0u);
+  EXPECT_EQ(judge::judge_mesh(with_source(field, heights), given.mesh, options)->ignored, 0u);
 }
 
 TEST(Judge, CombinesChannelsByTheNorm) {
@@ -114,10 +114,10 @@ TEST(Judge, CombinesChannelsByTheNorm) {
   field.channels = {{band.data(), 0.5}};
   field.height_scale = 2;
   for (const Norm norm : {Norm::kSum, Norm::kSquares, Norm::kMax}) {
-    JudgeOptions options;
+    judge::JudgeOptions options;
     options.norm = norm;
     options.keep_errors = true;
-    const auto judged = judge_mesh(field, given.mesh, options);
+    const auto judged = judge::judge_mesh(field, given.mesh, options);
     ASSERT_TRUE(judged) << judged.error().message;
     ASSERT_EQ(judged->norms.size(), samples);
     ASSERT_EQ(judged->channels.size(), 1u);
@@ -129,7 +129,7 @@ TEST(Judge, CombinesChannelsByTheNorm) {
       most = std::max(most, judged->norms[k]);
     }
     EXPECT_EQ(judged->combined->largest.value, most);
-    const std::vector<float> raster = take_error_raster(*judged, ErrorsOf::kNorms);
+    const std::vector<float> raster = judge::take_error_raster(*judged, judge::ErrorsOf::kNorms);
     EXPECT_EQ(raster[100], static_cast<float>(judged->norms[100]));
   }
 }
@@ -138,9 +138,9 @@ TEST(Judge, LeavesOutIgnoredSamples) {
   const Case given;
   const auto worst = std::max_element(given.errors.begin(), given.errors.end()) - given.errors.begin();
   const SampleAt ignored[] = {{static_cast<std::int32_t>(worst % 61), static_cast<std::int32_t>(worst / 61)}};
-  JudgeOptions options;
+  judge::JudgeOptions options;
   options.tolerances.ignored = ignored;
-  const auto judged = judge_mesh(given.terrain.view(), given.mesh, options);
+  const auto judged = judge::judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(judged) << judged.error().message;
   EXPECT_EQ(judged->ignored, 1u);
   EXPECT_LT(judged->bounded.value, judged->heights.max_error);
@@ -151,21 +151,21 @@ TEST(Judge, RefusesWhatDoesNotFit) {
   const Case given;
   const HeightField field = given.terrain.view();
   const std::vector<float> all(given.errors.size(), 1), few(7, 1);
-  JudgeOptions few_weights, both, negative, outside;
+  judge::JudgeOptions few_weights, both, negative, outside;
   few_weights.tolerances.weights = few;
   both.tolerances.weights = both.tolerances.values = all;
   negative.max_error = -1;
   const SampleAt beyond[] = {{61, 0}};
   outside.tolerances.ignored = beyond;
-  for (const JudgeOptions& options : {few_weights, both, negative, outside}) {
-    const auto judged = judge_mesh(field, given.mesh, options);
+  for (const judge::JudgeOptions& options : {few_weights, both, negative, outside}) {
+    const auto judged = judge::judge_mesh(field, given.mesh, options);
     ASSERT_FALSE(judged);
     EXPECT_EQ(judged.error().kind, ErrorKind::kUsage);
   }
   HeightField coloured = field;
   coloured.channels = {{all.data(), 1}};
-  EXPECT_FALSE(judge_mesh(coloured, given.mesh));
-  EXPECT_TRUE(judge_mesh(field, given.mesh));
+  EXPECT_FALSE(judge::judge_mesh(coloured, given.mesh));
+  EXPECT_TRUE(judge::judge_mesh(field, given.mesh));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 struct Lender {
   std::vector<float> samples{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-  LentRaster raster;
+  io::LentRaster raster;
 
   Lender() {
     raster.samples = samples.data();
@@ -27,7 +27,7 @@ struct Lender {
 TEST(Lent, SamplesAreReadWithoutACopyWhileTheyAreLent) {
   Lender lender;
   {
-    const Lent lent("hills.pgm", lender.raster);
+    const io::Lent lent("hills.pgm", lender.raster);
     const auto field = read_height_field("hills.pgm");
     ASSERT_TRUE(field);
     EXPECT_EQ(field->view().samples, lender.samples.data());
@@ -42,9 +42,9 @@ TEST(Lent, SamplesAreReadWithoutACopyWhileTheyAreLent) {
 TEST(Lent, WhatWasLentLastCounts) {
   Lender first, second;
   second.samples[0] = 100;
-  const Lent below("a", first.raster);
+  const io::Lent below("a", first.raster);
   {
-    const Lent above("a", second.raster);
+    const io::Lent above("a", second.raster);
     EXPECT_EQ(read_height_field("a")->info.max, 100);
   }
   EXPECT_EQ(read_height_field("a")->info.max, 12);
@@ -54,7 +54,7 @@ TEST(Lent, SamplesThatAreNoHeightsCostOneCopy) {
   Lender lender;
   lender.samples[5] = std::numeric_limits<float>::infinity();
   lender.raster.nodata = 3.0f;
-  const Lent lent("a", lender.raster);
+  const io::Lent lent("a", lender.raster);
   const auto field = read_height_field("a");
   ASSERT_TRUE(field);
   EXPECT_EQ(field->lent, nullptr);
@@ -66,7 +66,7 @@ TEST(Lent, SamplesThatAreNoHeightsCostOneCopy) {
 
 TEST(Lent, WhoeverChangesSamplesOwnsThemFirst) {
   Lender lender;
-  const Lent lent("a", lender.raster);
+  const io::Lent lent("a", lender.raster);
   auto field = read_height_field("a");
   ASSERT_TRUE(field);
   apply_edits({{1, 1, 6, 60}}, *field);
@@ -83,7 +83,7 @@ TEST(Lent, DegreesBecomeMetres) {
   Lender lender;
   lender.raster.geotransform = {8, 1.0 / 3600, 0, 46, 0, -1.0 / 3600};
   lender.raster.is_geographic = true;
-  const Lent lent("a", lender.raster);
+  const io::Lent lent("a", lender.raster);
   const auto local = read_height_field("a", {.default_frame = DefaultFrame::kMetric});
   ASSERT_TRUE(local);
   EXPECT_EQ(local->frame.kind, Frame::Kind::kLocal);
@@ -97,7 +97,7 @@ TEST(Lent, DegreesBecomeMetres) {
 TEST(Lent, WhatCannotBeReadIsRefusedInOneSentence) {
   Lender lender;
   const auto sentence = [&](const ReadOptions& options = {}) {
-    const Lent lent("heights", lender.raster);
+    const io::Lent lent("heights", lender.raster);
     const auto field = read_height_field("heights", options);
     return field ? std::string() : field.error().message;
   };
@@ -119,8 +119,8 @@ TEST(Lent, MeshesAndPointsToo) {
   mesh.triangles = {0, 1, 2};
   PointSet points;
   points.x = points.y = points.z = {1, 2, 3};
-  const Lent lent_mesh("thing", mesh);
-  const Lent lent_points("thing", points);
+  const io::Lent lent_mesh("thing", mesh);
+  const io::Lent lent_points("thing", points);
   EXPECT_EQ(read_mesh("thing")->triangles, mesh.triangles);
   EXPECT_EQ(read_points("thing")->x, points.x);
 }

@@ -17,9 +17,9 @@ TEST(line_runs, of_a_ring_that_crosses_rows_a_million_times_are_even_odd) {
   for (int k = 0; k < 13000; ++k)
     ring.points.push_back({kCols * (static_cast<double>(random()) / 0x1p32), k % 2 == 0 ? 1.5 : kRows - 2.5, 0});
   ring.points.push_back(ring.points.front());
-  LineRuns runs({0, 1, 0, 0, 0, 1}, kCols, kRows);
+  grid::LineRuns runs({0, 1, 0, 0, 0, 1}, kCols, kRows);
   runs.add_polygons({&ring, 1});
-  const SampleSet inside(runs.runs(), kRows);
+  const grid::SampleSet inside(runs.runs(), kRows);
   for (const std::int32_t row : {0, 1, 2, 30, 44, 45, 46, 87, 88, 89}) {
     for (std::int32_t col = 0; col < kCols; col += 7) {
       bool is_inside = false;

@@ -85,7 +85,7 @@ TEST(live_tiles, are_those_of_the_finished_set_for_any_cache_and_several_readers
   for (const auto& [key, bytes] : kept.files)
     wanted.push_back({{std::get<0>(key), std::get<1>(key), std::get<2>(key)}, &bytes});
   for (const std::uint64_t cache : {0ull, 30'000ull, 100'000'000ull}) {
-    const auto live = LiveTileSet::open(job, land, cache);
+    const auto live = jobs::LiveTileSet::open(job, land, cache);
     ASSERT_TRUE(live) << live.error().message;
     EXPECT_EQ((*live)->tiles(), report->tiles);
     std::vector<int> wrong(2 * wanted.size());
@@ -107,7 +107,7 @@ TEST(live_tiles, that_are_prepared_are_those_of_the_finished_set_with_its_bounds
   Kept kept(make_tile_encoder(job.format, job.plan));
   const auto report = make_pyramid(job.plan, land, kept);
   ASSERT_TRUE(report);
-  const auto live = LiveTileSet::open(job, land, 100'000'000);
+  const auto live = jobs::LiveTileSet::open(job, land, 100'000'000);
   ASSERT_TRUE(live);
   // During concurrent requests.
   std::vector<std::size_t> wrong(2);
@@ -135,7 +135,7 @@ TEST(live_tiles, that_are_prepared_are_those_of_the_finished_set_with_its_bounds
 TEST(live_tiles, are_prepared_as_far_as_there_is_room_and_until_nobody_waits) {
   const Land land;
   const TileJob job = make_job();
-  const auto full = LiveTileSet::open(job, land, 300'000), over = LiveTileSet::open(job, land, 100'000'000);
+  const auto full = jobs::LiveTileSet::open(job, land, 300'000), over = jobs::LiveTileSet::open(job, land, 100'000'000);
   ASSERT_TRUE(full && over);
   const Result<bool> all = (*full)->prepare(1, [] { return false; });
   ASSERT_TRUE(all) << all.error().message;
@@ -150,7 +150,7 @@ TEST(live_tiles, are_prepared_as_far_as_there_is_room_and_until_nobody_waits) {
 TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody_knows) {
   const Land land;
   TileJob job = make_job();
-  const auto live = LiveTileSet::open(job, land, 0);
+  const auto live = jobs::LiveTileSet::open(job, land, 0);
   ASSERT_TRUE(live) << live.error().message;
   const auto bytes = (*live)->read_file("layer.json");
   ASSERT_TRUE(bytes);
@@ -160,7 +160,7 @@ TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody
   EXPECT_EQ(layer.at("scarp").at("levels").at(7).at("tiles"), (*live)->tiles()[7].size());
   // Another raster is another version, so clients request tiles again.
   job.rasters[0].changed = 1;
-  const auto later = LiveTileSet::open(job, land, 0);
+  const auto later = jobs::LiveTileSet::open(job, land, 0);
   ASSERT_TRUE(later);
   EXPECT_NE(*(*later)->read_file("layer.json"), *bytes);
 }
@@ -168,7 +168,7 @@ TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody
 TEST(live_tiles, too_many_nodes_to_look_at_are_taken_for_heights) {
   const Land land;
   const TileJob job = make_job();
-  const auto looked = LiveTileSet::open(job, land, 0), not_looked = LiveTileSet::open(job, land, 0, {}, 1);
+  const auto looked = jobs::LiveTileSet::open(job, land, 0), not_looked = jobs::LiveTileSet::open(job, land, 0, {}, 1);
   ASSERT_TRUE(looked && not_looked);
   EXPECT_GE((*not_looked)->tiles()[7].size(), (*looked)->tiles()[7].size());
   for (const std::uint64_t key : (*not_looked)->tiles()[7])
@@ -179,7 +179,7 @@ TEST(live_tiles, three_d_tiles_are_refused) {
   const Land land;
   TileJob job = make_job();
   job.format = TileFormat::kGlb;
-  const auto live = LiveTileSet::open(job, land, 0);
+  const auto live = jobs::LiveTileSet::open(job, land, 0);
   ASSERT_FALSE(live);
   EXPECT_EQ(live.error().kind, ErrorKind::kUsage);
 }

@@ -72,17 +72,17 @@ RC_GTEST_PROP(MeshAttributes, ComeBackFromEveryFormat, ()) {
 
 TEST(Srgb, EveryByteComesBack) {
   for (int b = 0; b < 256; ++b) {
-    const auto linear = static_cast<double>(kLinearOfSrgb[static_cast<std::size_t>(b)]);
-    EXPECT_EQ(srgb_of_linear(linear), b);
+    const auto linear = static_cast<double>(io::kLinearOfSrgb[static_cast<std::size_t>(b)]);
+    EXPECT_EQ(io::srgb_of_linear(linear), b);
     const double c = b / 255.0, exact = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(linear, exact, 1e-7);
     EXPECT_EQ(static_cast<float>(linear), static_cast<float>(exact)) << b;
   }
-  EXPECT_EQ(kLinearOfSrgb[0], 0);
-  EXPECT_EQ(kLinearOfSrgb[255], 1);
-  EXPECT_EQ(srgb_of_linear(-1), 0);
-  EXPECT_EQ(srgb_of_linear(7), 255);
-  EXPECT_EQ(srgb_of_linear(NAN), 0);
+  EXPECT_EQ(io::kLinearOfSrgb[0], 0);
+  EXPECT_EQ(io::kLinearOfSrgb[255], 1);
+  EXPECT_EQ(io::srgb_of_linear(-1), 0);
+  EXPECT_EQ(io::srgb_of_linear(7), 255);
+  EXPECT_EQ(io::srgb_of_linear(NAN), 0);
 }
 
 nlohmann::json json_of(const std::vector<std::uint8_t>& bytes) {
@@ -171,8 +171,8 @@ TEST(GlbAttributes, ForeignIntegersAreFractionsOfLinearLight) {
                                 "x.glb");
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh->colors,
-            (std::vector<std::uint8_t>{255, 0, srgb_of_linear(55 / 255.0), 0, 255, 0, srgb_of_linear(1 / 255.0),
-                                       srgb_of_linear(2 / 255.0), srgb_of_linear(3 / 255.0)}));
+            (std::vector<std::uint8_t>{255, 0, io::srgb_of_linear(55 / 255.0), 0, 255, 0, io::srgb_of_linear(1 / 255.0),
+                                       io::srgb_of_linear(2 / 255.0), io::srgb_of_linear(3 / 255.0)}));
   EXPECT_EQ(mesh->uvs, (std::vector<float>{0, 1, 32767 / 65535.f, 0, 1, 0}));
   EXPECT_EQ(mesh->channel_count, 0);
 

@@ -27,10 +27,10 @@ std::vector<T> some_values(int modulus, int shift) {
 
 std::vector<std::uint32_t> bits_of(const HeightField& field) {
   std::vector<float> samples(kSamples);
-  EXPECT_TRUE(read_window(field, 0, 0, kWide, kHigh, samples.data(), kWide));
+  EXPECT_TRUE(grid::read_window(field, 0, 0, kWide, kHigh, samples.data(), kWide));
   // Windows of another shape must give the same samples.
   std::vector<float> window(5 * 8, -1.0f);
-  EXPECT_TRUE(read_window(field, 9, 11, 5, 4, window.data(), 8));
+  EXPECT_TRUE(grid::read_window(field, 9, 11, 5, 4, window.data(), 8));
   std::vector<std::uint32_t> bits;
   for (const float z : samples) bits.push_back(std::isnan(z) ? 0x7fc00000 : std::bit_cast<std::uint32_t>(z));
   for (std::size_t y = 0; y < 4; ++y) {
@@ -179,7 +179,7 @@ TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_
     return;
   }
   std::vector<float> samples(kSamples);
-  const auto read = read_window(*cut, 0, 0, kWide, kHigh, samples.data(), kWide);
+  const auto read = grid::read_window(*cut, 0, 0, kWide, kHigh, samples.data(), kWide);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().kind, ErrorKind::kInput);
   EXPECT_TRUE(testing::contains(read.error().message, path)) << read.error().message;

@@ -28,7 +28,7 @@ std::int64_t twice_area(const std::vector<Point>& polygon) {
   return sum;
 }
 
-std::int64_t twice_area(const Outline& outline) {
+std::int64_t twice_area(const grid::Outline& outline) {
   std::int64_t sum = 0;
   for (const auto& polygon : outline) sum += twice_area(polygon);
   return sum;
@@ -36,50 +36,50 @@ std::int64_t twice_area(const Outline& outline) {
 
 TEST(outline, a_whole_raster_is_its_rectangle) {
   const auto field = field_of({"xxx", "xxx"});
-  EXPECT_TRUE(is_whole(field.raster()));
-  const Outline outline = trace_outline(field.raster());
+  EXPECT_TRUE(grid::is_whole(field.raster()));
+  const grid::Outline outline = grid::trace_outline(field.raster());
   ASSERT_EQ(outline.size(), 1u);
   EXPECT_EQ(outline[0].size(), 4u);
   EXPECT_EQ(twice_area(outline), 4);
 }
 
 TEST(outline, a_nodata_corner_leaves_half_a_cell) {
-  const Outline outline = trace_outline(field_of({".x", "xx"}).raster());
+  const grid::Outline outline = grid::trace_outline(field_of({".x", "xx"}).raster());
   ASSERT_EQ(outline.size(), 1u);
   EXPECT_EQ(outline[0].size(), 3u);
   EXPECT_EQ(twice_area(outline), 1);
 }
 
 TEST(outline, a_nodata_sample_inside_makes_a_hole_of_half_cells) {
-  const Outline outline = trace_outline(field_of({"xxxxx", "xxxxx", "xx.xx", "xxxxx", "xxxxx"}).raster());
+  const grid::Outline outline = grid::trace_outline(field_of({"xxxxx", "xxxxx", "xx.xx", "xxxxx", "xxxxx"}).raster());
   ASSERT_EQ(outline.size(), 2u);
   EXPECT_EQ(twice_area(outline[0]), 32);
   EXPECT_EQ(twice_area(outline[1]), -4) << "a diamond, negative";
 }
 
 TEST(outline, parts_that_touch_in_a_sample_are_polygons_of_their_own) {
-  const Outline outline = trace_outline(field_of({"xxx", "x.x", "xxx"}).raster());
+  const grid::Outline outline = grid::trace_outline(field_of({"xxx", "x.x", "xxx"}).raster());
   ASSERT_EQ(outline.size(), 4u) << "four half cells that meet in the middles of the sides";
   for (const auto& polygon : outline) EXPECT_EQ(twice_area(polygon), 1);
 }
 
 TEST(outline, samples_without_a_cell_have_none) {
-  EXPECT_TRUE(trace_outline(field_of({"x.x", ".x.", "x.x"}).raster()).empty());
+  EXPECT_TRUE(grid::trace_outline(field_of({"x.x", ".x.", "x.x"}).raster()).empty());
 }
 
 RC_GTEST_PROP(outline, encloses_exactly_the_cells, ()) {
   const auto field =
       testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 30), *rc::gen::inRange(2, 30),
                             testing::Relief::kTies, *rc::gen::element(0.05, 0.3, 0.7));
-  const Raster raster = field.raster();
+  const grid::Raster raster = field.raster();
   std::int64_t cells = 0;
   for (std::int32_t y = 0; y + 1 < raster.rows; ++y) {
     for (std::int32_t x = 0; x + 1 < raster.cols; ++x) {
-      const int valid = std::popcount(valid_corners(raster, x, y));
+      const int valid = std::popcount(grid::valid_corners(raster, x, y));
       cells += valid == 4 ? 2 : valid == 3 ? 1 : 0;
     }
   }
-  const Outline outline = trace_outline(raster);
+  const grid::Outline outline = grid::trace_outline(raster);
   RC_ASSERT(twice_area(outline) == cells);
   std::map<std::pair<int, int>, int> passes;
   for (const auto& polygon : outline)
@@ -95,15 +95,15 @@ RC_GTEST_PROP(outline, encloses_exactly_the_cells, ()) {
 RC_GTEST_PROP(outline, simplified_grows_and_has_no_more_vertices, ()) {
   const auto field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), 40, 40, testing::Relief::kTies,
                                            *rc::gen::element(0.05, 0.3));
-  const Outline exact = trace_outline(field.raster());
-  const Outline simple = simplify_outline(field.raster(), exact, *rc::gen::element(0.5, 1.0, 2.5));
+  const grid::Outline exact = grid::trace_outline(field.raster());
+  const grid::Outline simple = grid::simplify_outline(field.raster(), exact, *rc::gen::element(0.5, 1.0, 2.5));
   RC_ASSERT(simple.size() == exact.size());
   for (std::size_t k = 0; k < exact.size(); ++k) {
     RC_ASSERT(simple[k].size() <= exact[k].size());
     RC_ASSERT(simple[k].size() >= 3u);
     RC_ASSERT(twice_area(simple[k]) >= twice_area(exact[k]));
   }
-  Triangulation tin(40, 40);
+  tin::Triangulation tin(40, 40);
   const auto vertex = [&](Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); };
   for (const auto& polygon : simple)
     for (Point p : polygon) vertex(p);
@@ -119,8 +119,8 @@ TEST(outline, a_diagonal_staircase_becomes_one_edge) {
   for (std::int32_t y = 0; y < 21; ++y)
     for (std::int32_t x = 2 * y + 1; x < 41; ++x)
       field.samples[static_cast<std::size_t>(41 * y + x)] = std::numeric_limits<float>::quiet_NaN();
-  const Outline exact = trace_outline(field.raster());
-  const Outline simple = simplify_outline(field.raster(), exact, 1);
+  const grid::Outline exact = grid::trace_outline(field.raster());
+  const grid::Outline simple = grid::simplify_outline(field.raster(), exact, 1);
   ASSERT_EQ(simple.size(), 1u);
   EXPECT_GT(exact[0].size(), 20u);
   EXPECT_LE(simple[0].size(), 6u);
@@ -134,7 +134,7 @@ TEST(outline, a_round_void_takes_the_fewest_chords) {
       if (is_void) field.samples[static_cast<std::size_t>(120 * y + x)] = std::numeric_limits<float>::quiet_NaN();
     }
   }
-  const Outline simple = simplify_outline(field.raster(), trace_outline(field.raster()), 1.5);
+  const grid::Outline simple = grid::simplify_outline(field.raster(), grid::trace_outline(field.raster()), 1.5);
   ASSERT_EQ(simple.size(), 2u);
   EXPECT_EQ(simple[0].size(), 4u);
   EXPECT_EQ(simple[1].size(), 16u) << "two in each octant; the farthest corner from each on took 20";
@@ -142,7 +142,7 @@ TEST(outline, a_round_void_takes_the_fewest_chords) {
 
 std::size_t voids_left(const std::vector<std::string>& picture, double tolerance) {
   const auto field = field_of(picture);
-  return close_voids(field.raster(), trace_outline(field.raster()), tolerance).size() - 1;
+  return grid::close_voids(field.raster(), grid::trace_outline(field.raster()), tolerance).size() - 1;
 }
 
 TEST(outline, voids_close_where_they_are_nowhere_farther_from_their_outline) {
@@ -171,7 +171,8 @@ RC_GTEST_PROP(outline, closed_voids_hold_no_height_and_lie_within_the_tolerance,
   const auto field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), 30, 30, testing::Relief::kTies,
                                            *rc::gen::element(0.05, 0.3, 0.6));
   const double tolerance = *rc::gen::element(0.5, 0.75, 1.0, 1.5, 2.5);
-  const Outline exact = trace_outline(field.raster()), left = close_voids(field.raster(), exact, tolerance);
+  const grid::Outline exact = grid::trace_outline(field.raster()),
+                      left = grid::close_voids(field.raster(), exact, tolerance);
   for (const auto& polygon : exact) {
     if (std::find(left.begin(), left.end(), polygon) != left.end()) continue;
     RC_ASSERT(twice_area(polygon) < 0);
@@ -200,8 +201,8 @@ RC_GTEST_PROP(outline, closed_voids_hold_no_height_and_lie_within_the_tolerance,
 }
 
 /// The valid samples of a field.
-std::vector<SampleRun> runs_of(const testing::Field& field) {
-  std::vector<SampleRun> runs;
+std::vector<grid::SampleRun> runs_of(const testing::Field& field) {
+  std::vector<grid::SampleRun> runs;
   for (std::int32_t y = 0; y < field.rows; ++y) {
     for (std::int32_t x = 0; x < field.cols; ++x) {
       if (!field.raster().is_valid({x, y})) continue;
@@ -220,7 +221,7 @@ RC_GTEST_PROP(outline, of_runs_is_that_of_the_raster, ()) {
   if (*rc::gen::arbitrary<bool>()) {
     for (float& z : field.samples) z = z == 2 ? z : std::numeric_limits<float>::quiet_NaN();
   }
-  RC_ASSERT(trace_outline(runs_of(field)) == trace_outline(field.raster()));
+  RC_ASSERT(grid::trace_outline(runs_of(field)) == grid::trace_outline(field.raster()));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ std::vector<std::uint8_t> pgm_bytes(const std::string& text) { return {text.begi
 
 /// The error's message; it must be kInput and begin with the file's name.
 std::string refusal(const std::string& text, const ReadOptions& options = {}) {
-  const auto read = decode_pgm(pgm_bytes(text), "hill.pgm", options);
+  const auto read = io::decode_pgm(pgm_bytes(text), "hill.pgm", options);
   if (read) return "read";
   EXPECT_EQ(read.error().kind, ErrorKind::kInput);
   EXPECT_EQ(read.error().message.rfind("hill.pgm", 0), 0u) << read.error().message;
@@ -25,7 +25,7 @@ void expect_refusal(const std::string& text, const std::string& part) {
 }
 
 TEST(Pgm, PlainWithCommentsEverywhere) {
-  const auto read = decode_pgm(
+  const auto read = io::decode_pgm(
       pgm_bytes("P2# a\n#b\r\n 3 # width\n2#height\n#x\n900#max\n1 2 3\n# between\n400 500#end\n900"), "hill.pgm");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->cols, 3);
@@ -44,14 +44,14 @@ TEST(Pgm, PlainWithCommentsEverywhere) {
 TEST(Pgm, RawBytesAndWords) {
   std::string narrow = "P5 2 2 255\n";
   narrow += {'\x00', '\x0a', '\x20', '\xff'};  // a newline and a space are samples here
-  auto read = decode_pgm(pgm_bytes(narrow), "hill.pgm");
+  auto read = io::decode_pgm(pgm_bytes(narrow), "hill.pgm");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->samples, (std::vector<float>{0, 10, 32, 255}));
   EXPECT_EQ(read->info.sample_type, "Byte");
 
   std::string wide = "P5 2 2 65535 ";
   wide += {'\x01', '\x02', '\x00', '\x00', '\xff', '\xff', '#', '\n'};  // no comments among samples
-  read = decode_pgm(pgm_bytes(wide), "hill.pgm");
+  read = io::decode_pgm(pgm_bytes(wide), "hill.pgm");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->samples, (std::vector<float>{258, 0, 65535, 35 * 256 + 10}));
 }
@@ -59,7 +59,7 @@ TEST(Pgm, RawBytesAndWords) {
 TEST(Pgm, NodataOnlyIfAskedFor) {
   ReadOptions options;
   options.nodata = 7;
-  auto read = decode_pgm(pgm_bytes("P2 2 2 9 7 1 2 3"), "hill.pgm", options);
+  auto read = io::decode_pgm(pgm_bytes("P2 2 2 9 7 1 2 3"), "hill.pgm", options);
   ASSERT_TRUE(read);
   EXPECT_TRUE(std::isnan(read->samples[0]));
   EXPECT_EQ(read->info.valid, 3u);
@@ -93,7 +93,7 @@ TEST(Pgm, RefusesWhatIsWrong) {
 TEST(Pgm, RefusesOptionsThatNeedMore) {
   ReadOptions options;
   options.crs = "EPSG:32611";
-  auto read = decode_pgm(pgm_bytes("P2 2 2 9 1 2 3 4"), "hill.pgm", options);
+  auto read = io::decode_pgm(pgm_bytes("P2 2 2 9 1 2 3 4"), "hill.pgm", options);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().kind, ErrorKind::kUsage);
   EXPECT_NE(read.error().message.find("EPSG:32611"), std::string::npos);
@@ -119,14 +119,14 @@ TEST(Pgm, SurvivesCutsAndMutations) {
   int read_count = 0;
   for (const std::string& whole : {plain, raw}) {
     for (std::size_t size = 0; size < whole.size() - 1; ++size) {
-      const auto cut = decode_pgm(pgm_bytes(whole.substr(0, size)), "cut.pgm");
+      const auto cut = io::decode_pgm(pgm_bytes(whole.substr(0, size)), "cut.pgm");
       // A plain file may end within its last number.
       EXPECT_TRUE(!cut || (whole == plain && size + 4 > whole.size())) << size;
     }
     for (int turn = 0; turn < 20000; ++turn) {
       std::string mutated = whole;
       for (auto n = random() % 3 + 1; n > 0; --n) mutated[random() % mutated.size()] = static_cast<char>(random());
-      const auto read = decode_pgm(pgm_bytes(mutated), "mutated.pgm");
+      const auto read = io::decode_pgm(pgm_bytes(mutated), "mutated.pgm");
       if (!read) continue;
       ++read_count;
       ASSERT_EQ(read->samples.size(), static_cast<std::size_t>(read->cols) * static_cast<std::size_t>(read->rows));

@@ -329,29 +329,29 @@ TEST(point_sets, name_the_few_points_that_lie_far_from_all_others) {
     points.y.push_back(4649000 + i / 20);
     points.z.push_back(i % 7);
   }
-  EXPECT_EQ(describe_far_points(points), "");
+  EXPECT_EQ(grid::describe_far_points(points), "");
   const auto add = [&](double x, double y) {
     points.x.push_back(x);
     points.y.push_back(y);
     points.z.push_back(0);
   };
   add(500100, 4649100);
-  EXPECT_EQ(describe_far_points(points), "") << "not so far";
+  EXPECT_EQ(grid::describe_far_points(points), "") << "not so far";
   add(0, 0);
-  EXPECT_EQ(describe_far_points(points),
+  EXPECT_EQ(grid::describe_far_points(points),
             "the point at (0, 0) lies far from all others, which span 100: remove it if it is an "
             "error");
   add(5e5, -9999999999);
-  EXPECT_TRUE(contains(describe_far_points(points), "the point at (0, 0) and 1 more lie far"));
+  EXPECT_TRUE(contains(grid::describe_far_points(points), "the point at (0, 0) and 1 more lie far"));
   for (int i = 0; i < 5; ++i) add(0, i);
-  EXPECT_EQ(describe_far_points(points), "") << "too many for errors";
-  EXPECT_EQ(describe_far_points({}), "");
-  EXPECT_EQ(describe_far_points(set_of({{7, 7, 1}})), "");
+  EXPECT_EQ(grid::describe_far_points(points), "") << "too many for errors";
+  EXPECT_EQ(grid::describe_far_points({}), "");
+  EXPECT_EQ(grid::describe_far_points(set_of({{7, 7, 1}})), "");
 }
 
 TEST(point_sets, the_lattice_is_the_coarsest_that_holds_the_decimals) {
   const auto step = [](std::vector<std::array<double, 3>> list) {
-    return snap_points(set_of(std::move(list)), DuplicatePolicy::kFirst)->lattice.step;
+    return grid::snap_points(set_of(std::move(list)), DuplicatePolicy::kFirst)->lattice.step;
   };
   EXPECT_EQ(step({{0.1, 0, 0}, {0.25, 4, 0}}), 0.05);
   EXPECT_EQ(step({{500015, 4000000, 0}, {500045, 4000090, 0}}), 30);

@@ -26,7 +26,7 @@ RC_GTEST_PROP(RasterWrite, PgmReadsBackRounded, ()) {
   RC_ASSERT(bytes.has_value());
   ReadOptions options;
   options.nodata = 65535;
-  const auto back = decode_pgm(*bytes, "x.pgm", options);
+  const auto back = io::decode_pgm(*bytes, "x.pgm", options);
   RC_ASSERT(back.has_value());
   RC_ASSERT(back->cols == cols && back->rows == rows);
   RC_ASSERT(std::isnan(back->samples[0]));

@@ -14,7 +14,7 @@ using Lattice = std::set<std::pair<std::int32_t, std::int32_t>>;
 Lattice scanned(const std::array<Point, 3>& corners) {
   Lattice points;
   std::int32_t last_row = -1;
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+  geom::scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     EXPECT_GT(y, last_row);
     last_row = y;
     for (std::int32_t x = first; x <= last; ++x) EXPECT_TRUE(points.emplace(x, y).second);
@@ -63,10 +63,10 @@ TEST(scan, a_sliver_costs_its_samples_not_its_rows) {
   constexpr std::int32_t kFar = 1'000'000'000;
   std::int64_t samples = 0;
   for (std::int32_t k = 0; k < 1000; ++k) {
-    scan_rows({Point{0, k}, Point{0, k + 2}, Point{1, kFar + k}},
-              [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
-    scan_rows({Point{3, k}, Point{0, kFar + k}, Point{3, k + 1}},
-              [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
+    geom::scan_rows({Point{0, k}, Point{0, k + 2}, Point{1, kFar + k}},
+                    [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
+    geom::scan_rows({Point{3, k}, Point{0, kFar + k}, Point{3, k + 1}},
+                    [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
   }
   EXPECT_GE(samples, 1000 * (4 + 3));
   EXPECT_LE(samples, 1000 * (4 + 5));
@@ -80,7 +80,7 @@ RC_GTEST_PROP(scan, counts_what_pick_says_at_any_size, ()) {
   const std::int64_t area2 = std::abs(orient(corners[0], corners[1], corners[2]));
   RC_PRE(area2 != 0);
   std::int64_t count = 0, border = 0;
-  scan_rows(corners, [&](std::int32_t, std::int32_t first, std::int32_t last) { count += last - first + 1; });
+  geom::scan_rows(corners, [&](std::int32_t, std::int32_t first, std::int32_t last) { count += last - first + 1; });
   for (int k = 0; k < 3; ++k)
     border += std::gcd(std::int64_t{corners[k].x} - corners[(k + 1) % 3].x,
                        std::int64_t{corners[k].y} - corners[(k + 1) % 3].y);

@@ -18,7 +18,7 @@ using test::grid_mesh;
 void expect_closed_manifold(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
-    ++edges[{mesh.triangles[h], mesh.triangles[next_half_edge(h)]}];
+    ++edges[{mesh.triangles[h], mesh.triangles[mesh::next_half_edge(h)]}];
   }
   for (const auto& [ends, count] : edges) {
     ASSERT_NE(ends.first, ends.second);
@@ -26,19 +26,19 @@ void expect_closed_manifold(const Mesh& mesh) {
     ASSERT_TRUE(edges.contains({ends.second, ends.first})) << ends.first << "→" << ends.second << " is open";
   }
   std::vector<std::size_t> corners(mesh.vertex_count(), 0);
-  std::vector<std::uint32_t> first(mesh.vertex_count(), kNoHalfEdge);
+  std::vector<std::uint32_t> first(mesh.vertex_count(), mesh::kNoHalfEdge);
   for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
     ++corners[mesh.triangles[h]];
     first[mesh.triangles[h]] = h;
   }
-  const auto twins = build_twins(mesh.triangles);
+  const auto twins = mesh::build_twins(mesh.triangles);
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    ASSERT_NE(first[v], kNoHalfEdge) << "vertex " << v << " is unused";
+    ASSERT_NE(first[v], mesh::kNoHalfEdge) << "vertex " << v << " is unused";
     std::size_t turned = 0;
     std::uint32_t h = first[v];
     do {
       ++turned;
-      h = twins[previous_half_edge(h)];
+      h = twins[mesh::previous_half_edge(h)];
     } while (h != first[v]);
     ASSERT_EQ(turned, corners[v]) << "vertex " << v << " joins two fans";
   }
@@ -69,23 +69,23 @@ double volume_above(const Mesh& mesh, double base) {
 }
 
 std::size_t border_edges(const Mesh& mesh) {
-  const auto twins = build_twins(mesh.triangles);
-  return static_cast<std::size_t>(std::count(twins.begin(), twins.end(), kNoHalfEdge));
+  const auto twins = mesh::build_twins(mesh.triangles);
+  return static_cast<std::size_t>(std::count(twins.begin(), twins.end(), mesh::kNoHalfEdge));
 }
 
 /// Border vertices where the border turns, counted per fan.
 std::size_t corners(const Mesh& mesh) {
-  const auto twins = build_twins(mesh.triangles);
+  const auto twins = mesh::build_twins(mesh.triangles);
   const auto point = [&](std::uint32_t h) {
     const double* p = &mesh.positions[3 * std::size_t{mesh.triangles[h]}];
-    return Point2{p[0], p[1]};
+    return mesh::Point2{p[0], p[1]};
   };
   std::size_t count = 0;
   for (std::uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != kNoHalfEdge) continue;
-    std::uint32_t onward = next_half_edge(h);
-    while (twins[onward] != kNoHalfEdge) onward = next_half_edge(twins[onward]);
-    count += exact_orient(point(h), point(onward), point(next_half_edge(onward))) != 0;
+    if (twins[h] != mesh::kNoHalfEdge) continue;
+    std::uint32_t onward = mesh::next_half_edge(h);
+    while (twins[onward] != mesh::kNoHalfEdge) onward = mesh::next_half_edge(twins[onward]);
+    count += mesh::exact_orient(point(h), point(onward), point(mesh::next_half_edge(onward))) != 0;
   }
   return count;
 }
@@ -147,10 +147,10 @@ TEST(Solid, RandomDomains) {
     // vertex and one per straight border vertex.
     std::vector<bool> is_used(mesh.vertex_count(), false);
     for (const std::uint32_t v : mesh.triangles) is_used[v] = true;
-    const auto twins = build_twins(mesh.triangles);
+    const auto twins = mesh::build_twins(mesh.triangles);
     std::vector<bool> on_border(mesh.vertex_count(), false);
     for (std::uint32_t h = 0; h < twins.size(); ++h) {
-      if (twins[h] == kNoHalfEdge) on_border[mesh.triangles[h]] = true;
+      if (twins[h] == mesh::kNoHalfEdge) on_border[mesh.triangles[h]] = true;
     }
     std::size_t inner = 0;
     for (std::size_t v = 0; v < is_used.size(); ++v) inner += is_used[v] && !on_border[v];
@@ -214,19 +214,19 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
     const Wide exact = static_cast<Wide>(dx) * (cy - ay) - static_cast<Wide>(dy) * (cx - ax);
     const int sign = (exact > 0) - (exact < 0);
     const auto point = [](std::int64_t x, std::int64_t y) {
-      return Point2{static_cast<double>(x), static_cast<double>(y)};
+      return mesh::Point2{static_cast<double>(x), static_cast<double>(y)};
     };
-    const Point2 a = point(ax, ay), b = point(ax + dx, ay + dy), c = point(cx, cy);
+    const mesh::Point2 a = point(ax, ay), b = point(ax + dx, ay + dy), c = point(cx, cy);
     flat += sign == 0;
-    ASSERT_EQ(exact_orient(a, b, c), sign);
-    ASSERT_EQ(exact_orient(b, c, a), sign);
-    ASSERT_EQ(exact_orient(b, a, c), -sign);
+    ASSERT_EQ(mesh::exact_orient(a, b, c), sign);
+    ASSERT_EQ(mesh::exact_orient(b, c, a), sign);
+    ASSERT_EQ(mesh::exact_orient(b, a, c), -sign);
   }
   EXPECT_GT(flat, 1000);
   // One unit in the last place decides, far below the resolution of the rounded determinant.
-  EXPECT_EQ(exact_orient({0.5, 0.5}, {12, 12}, {24, 24}), 0);
-  EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 1)}, {12, 12}, {24, 24}), 1);
-  EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 0)}, {12, 12}, {24, 24}), -1);
+  EXPECT_EQ(mesh::exact_orient({0.5, 0.5}, {12, 12}, {24, 24}), 0);
+  EXPECT_EQ(mesh::exact_orient({0.5, std::nextafter(0.5, 1)}, {12, 12}, {24, 24}), 1);
+  EXPECT_EQ(mesh::exact_orient({0.5, std::nextafter(0.5, 0)}, {12, 12}, {24, 24}), -1);
 }
 
 TEST(AddBase, GivesNewVerticesTheAttributesOfThoseAbove) {

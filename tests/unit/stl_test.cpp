@@ -57,7 +57,7 @@ TEST(Stl, NormalsAreUnitAndUp) {
   const auto bytes = *encode_mesh(mesh, MeshFormat::kStl);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::uint8_t* at = &bytes[84 + 50 * t];
-    const double x = load_number<float>(at), y = load_number<float>(at + 4), z = load_number<float>(at + 8);
+    const double x = io::load_number<float>(at), y = io::load_number<float>(at + 4), z = io::load_number<float>(at + 8);
     EXPECT_NEAR(x * x + y * y + z * z, 1, 1e-6);
     EXPECT_GT(z, 0);
   }
@@ -84,7 +84,7 @@ TEST(Stl, NamesTheFault) {
             std::string::npos);
   EXPECT_NE(message(std::span(bytes).first(60)).find("within the header"), std::string::npos);
   std::uint8_t* at = &bytes[84 + 50 + 12];
-  store_number(at, std::nanf(""));
+  io::store_number(at, std::nanf(""));
   EXPECT_NE(message(bytes).find("triangle 1"), std::string::npos);
   EXPECT_NE(message(to_bytes("solid\nfacet\nouter loop\nvertex 1 2 3\n")).find("without 'endsolid'"),
             std::string::npos);

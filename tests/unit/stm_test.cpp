@@ -22,7 +22,7 @@ std::vector<std::uint8_t> stm(const std::string& head, std::initializer_list<int
 }
 
 std::string refusal(const std::vector<std::uint8_t>& bytes) {
-  const auto read = decode_stm(bytes, "hill.stm");
+  const auto read = io::decode_stm(bytes, "hill.stm");
   if (read) return "read";
   EXPECT_EQ(read.error().kind, ErrorKind::kInput);
   EXPECT_EQ(read.error().message.rfind("hill.stm", 0), 0u) << read.error().message;
@@ -31,7 +31,7 @@ std::string refusal(const std::vector<std::uint8_t>& bytes) {
 
 TEST(Stm, BothByteOrders) {
   for (const auto order : {std::initializer_list<int>{4, 3, 2, 1}, std::initializer_list<int>{1, 2, 3, 4}}) {
-    const auto read = decode_stm(stm("STM 3 2 ", order, {1, 258, 3, 65535, 40000, 6}), "hill.stm");
+    const auto read = io::decode_stm(stm("STM 3 2 ", order, {1, 258, 3, 65535, 40000, 6}), "hill.stm");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->cols, 3);
     EXPECT_EQ(read->rows, 2);
@@ -48,7 +48,7 @@ TEST(Stm, BothByteOrders) {
 TEST(Stm, AnotherNodataMakes65535AHeight) {
   ReadOptions options;
   options.nodata = 6;
-  const auto read = decode_stm(stm("STM 2 2 ", {4, 3, 2, 1}, {1, 65535, 3, 6}), "hill.stm", options);
+  const auto read = io::decode_stm(stm("STM 2 2 ", {4, 3, 2, 1}, {1, 65535, 3, 6}), "hill.stm", options);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->samples[1], 65535);
   EXPECT_TRUE(std::isnan(read->samples[3]));
@@ -71,7 +71,7 @@ TEST(Stm, RefusesWhatIsWrong) {
 TEST(Stm, SurvivesCutsAndMutations) {
   const auto whole = stm("STM 4 3 ", {4, 3, 2, 1}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_FALSE(decode_stm(std::span(whole).first(size), "cut.stm")) << size;
+    EXPECT_FALSE(io::decode_stm(std::span(whole).first(size), "cut.stm")) << size;
   }
   std::mt19937 random(11);
   int read_count = 0;
@@ -79,7 +79,7 @@ TEST(Stm, SurvivesCutsAndMutations) {
     auto mutated = whole;
     for (auto n = random() % 3 + 1; n > 0; --n)
       mutated[random() % mutated.size()] = static_cast<std::uint8_t>(random());
-    const auto read = decode_stm(mutated, "mutated.stm");
+    const auto read = io::decode_stm(mutated, "mutated.stm");
     if (!read) continue;
     ++read_count;
     ASSERT_EQ(read->samples.size(), 12u);

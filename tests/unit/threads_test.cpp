@@ -217,14 +217,14 @@ TEST(Threads, WhatIsThrownBesideComesThroughFirst) {
 
 TEST(Threads, NeverChangeATiledMesh) {
   const OwnedHeightField field = make_waves(300, 200);
-  const auto one = refine_tiled(field, {.threshold = 0.5, .threads = 1, .tile_side = 32});
+  const auto one = pieces::refine_tiled(field, {.threshold = 0.5, .threads = 1, .tile_side = 32});
   ASSERT_TRUE(one && *one);
   for (const int threads : {2, 3, 8}) {
-    const auto many = refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
+    const auto many = pieces::refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
     ASSERT_TRUE(many && *many);
-    const Triangulation &a = (*one)->domain.tin, &b = (*many)->domain.tin;
+    const tin::Triangulation &a = (*one)->domain.tin, &b = (*many)->domain.tin;
     ASSERT_EQ(a.triangle_count(), b.triangle_count());
-    for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+    for (tin::HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
       ASSERT_EQ(a.origin(h), b.origin(h));
       ASSERT_EQ(a.twin(h), b.twin(h));
     }
@@ -235,16 +235,16 @@ TEST(Threads, NeverChangeATiledMesh) {
 TEST(Threads, NeverChangeAFittedMesh) {
   const OwnedHeightField field = make_waves(300, 200);
   const auto fitted = [&](int threads) {
-    auto tiled = refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
-    const Raster raster{field.samples.data(), field.cols, field.rows};
-    return *fit(raster, std::move((*tiled)->domain.tin), {.threshold = 0.5, .threads = threads, .patch_side = 50});
+    auto tiled = pieces::refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
+    const grid::Raster raster{field.samples.data(), field.cols, field.rows};
+    return *fit::fit(raster, std::move((*tiled)->domain.tin), {.threshold = 0.5, .threads = threads, .patch_side = 50});
   };
-  const Fitted one = fitted(1);
+  const fit::Fitted one = fitted(1);
   EXPECT_GT(one.counts.removed, 0u);
   for (const int threads : {2, 3, 8}) {
-    const Fitted many = fitted(threads);
+    const fit::Fitted many = fitted(threads);
     ASSERT_EQ(one.tin.triangle_count(), many.tin.triangle_count());
-    for (HalfEdge h = 0; h < 3 * one.tin.triangle_count(); ++h) {
+    for (tin::HalfEdge h = 0; h < 3 * one.tin.triangle_count(); ++h) {
       ASSERT_EQ(one.tin.origin(h), many.tin.origin(h));
       ASSERT_EQ(one.tin.twin(h), many.tin.twin(h));
     }

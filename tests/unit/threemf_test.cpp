@@ -22,8 +22,8 @@ std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin()
 
 /// A 3MF file around a model.
 std::vector<std::uint8_t> package(std::string_view model, std::string_view name = "3D/3dmodel.model") {
-  const ZipEntry entry{std::string(name), bytes_of(model)};
-  return *encode_zip({&entry, 1});
+  const io::ZipEntry entry{std::string(name), bytes_of(model)};
+  return *io::encode_zip({&entry, 1});
 }
 
 std::string complaint(std::span<const std::uint8_t> bytes) {
@@ -34,28 +34,28 @@ std::string complaint(std::span<const std::uint8_t> bytes) {
 TEST(Zip, GivesBackWhatWasPutIn) {
   std::vector<std::uint8_t> long_one(3000000);
   for (std::size_t k = 0; k < long_one.size(); ++k) long_one[k] = static_cast<std::uint8_t>(k * k / 7);
-  const ZipEntry entries[] = {{"a", {}}, {"b/C.txt", bytes_of("hello hello hello hello")}, {"long", long_one}};
-  const auto archive = encode_zip(entries);
+  const io::ZipEntry entries[] = {{"a", {}}, {"b/C.txt", bytes_of("hello hello hello hello")}, {"long", long_one}};
+  const auto archive = io::encode_zip(entries);
   ASSERT_TRUE(archive);
-  EXPECT_EQ(*encode_zip(entries), *archive);
-  const auto zip = ZipReader::open(*archive);
+  EXPECT_EQ(*io::encode_zip(entries), *archive);
+  const auto zip = io::ZipReader::open(*archive);
   ASSERT_TRUE(zip);
   EXPECT_EQ(zip->find("B/c.TXT"), "b/C.txt");
   EXPECT_EQ(zip->find("d"), "");
-  for (const ZipEntry& entry : entries) EXPECT_EQ(zip->extract(entry.name).value(), entry.bytes);
+  for (const io::ZipEntry& entry : entries) EXPECT_EQ(zip->extract(entry.name).value(), entry.bytes);
   EXPECT_FALSE(zip->extract("d"));
 }
 
 TEST(Zip, NoticesDamage) {
-  const ZipEntry entry{"a", bytes_of("some words, some words, some words")};
-  const auto archive = *encode_zip({&entry, 1});
+  const io::ZipEntry entry{"a", bytes_of("some words, some words, some words")};
+  const auto archive = *io::encode_zip({&entry, 1});
   for (std::size_t size = 0; size < archive.size(); ++size)
-    EXPECT_FALSE(ZipReader::open(std::span(archive).first(size))) << size;
+    EXPECT_FALSE(io::ZipReader::open(std::span(archive).first(size))) << size;
   int noticed = 0;
   for (std::size_t k = 0; k < archive.size(); ++k) {
     auto damaged = archive;
     damaged[k] ^= 0x55;
-    const auto zip = ZipReader::open(damaged);
+    const auto zip = io::ZipReader::open(damaged);
     const auto bytes = zip ? zip->extract("a") : tl::unexpected(zip.error());
     if (bytes) {
       EXPECT_EQ(*bytes, entry.bytes) << k;
@@ -66,9 +66,9 @@ TEST(Zip, NoticesDamage) {
   EXPECT_GT(noticed, 40);
   // A size that is impossible for deflate is rejected.
   auto bomb = archive;
-  const std::size_t directory = load_number<std::uint32_t>(&bomb[bomb.size() - 6]);
+  const std::size_t directory = io::load_number<std::uint32_t>(&bomb[bomb.size() - 6]);
   for (std::size_t k = 24; k < 28; ++k) bomb[directory + k] = 0xfe;
-  EXPECT_FALSE(ZipReader::open(bomb)->extract("a"));
+  EXPECT_FALSE(io::ZipReader::open(bomb)->extract("a"));
 }
 
 TEST(ThreeMf, ReadsBackTheSame) {

@@ -234,14 +234,14 @@ TEST(quantized_mesh, damaged_files_are_refused_or_read_without_harm) {
 
 TEST(gzip, is_read_back_and_damage_is_noticed) {
   const std::vector<std::uint8_t> bytes = some_file();
-  auto packed = compress_gzip(bytes);
+  auto packed = io::compress_gzip(bytes);
   ASSERT_TRUE(packed);
-  EXPECT_EQ(*decompress_gzip(*packed, 1 << 20), bytes);
-  EXPECT_FALSE(decompress_gzip(*packed, bytes.size() - 1));
-  EXPECT_FALSE(decompress_gzip(std::span(*packed).first(packed->size() - 9), 1 << 20));
-  EXPECT_FALSE(decompress_gzip({}, 1 << 20));
+  EXPECT_EQ(*io::decompress_gzip(*packed, 1 << 20), bytes);
+  EXPECT_FALSE(io::decompress_gzip(*packed, bytes.size() - 1));
+  EXPECT_FALSE(io::decompress_gzip(std::span(*packed).first(packed->size() - 9), 1 << 20));
+  EXPECT_FALSE(io::decompress_gzip({}, 1 << 20));
   (*packed)[packed->size() / 2] ^= 0x55;
-  EXPECT_FALSE(decompress_gzip(*packed, 1 << 20));
+  EXPECT_FALSE(io::decompress_gzip(*packed, 1 << 20));
 }
 
 /// Bytes with few values in random order, like differences of a mesh's numbers; or periodic bytes.
@@ -257,9 +257,9 @@ TEST(gzip, of_a_mesh_is_no_larger_whether_it_repeats_itself_or_not) {
   for (const std::size_t period : {40'000u, 7u}) {
     for (const std::size_t count : {0u, 100u, 5000u, 40'000u}) {
       const std::vector<std::uint8_t> bytes = mesh_like(count, period);
-      const auto packed = compress_gzip_of_mesh(bytes), thorough = compress_gzip(bytes);
+      const auto packed = io::compress_gzip_of_mesh(bytes), thorough = io::compress_gzip(bytes);
       ASSERT_TRUE(packed && thorough);
-      EXPECT_EQ(*decompress_gzip(*packed, 1 << 20), bytes);
+      EXPECT_EQ(*io::decompress_gzip(*packed, 1 << 20), bytes);
       EXPECT_LE(packed->size(), thorough->size() + thorough->size() / 50 + 20) << period << ' ' << count;
     }
   }

@@ -10,18 +10,18 @@ namespace {
 
 using testing::verify_triangulation;
 
-Vertex insert_point(Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
+tin::Vertex insert_point(tin::Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
 
 TEST(triangulation, starts_with_two_triangles_from_south_west_to_north_east) {
-  const Triangulation tin(7, 5);
+  const tin::Triangulation tin(7, 5);
   EXPECT_EQ(tin.triangle_count(), 2u);
-  EXPECT_NE(tin.find_edge(1, 3), kNone) << "from (6, 0) to (0, 4)";
+  EXPECT_NE(tin.find_edge(1, 3), tin::kNone) << "from (6, 0) to (0, 4)";
   EXPECT_EQ(verify_triangulation(tin, 7, 5), "");
 }
 
 RC_GTEST_PROP(triangulation, stays_delaunay_under_any_insertions, ()) {
   const auto side = *rc::gen::element(4, 12, 30000, 50000, 1000000);
-  Triangulation tin(side, side);
+  tin::Triangulation tin(side, side);
   const auto points = *rc::gen::container<std::vector<std::pair<int, int>>>(
       rc::gen::pair(rc::gen::inRange(0, side), rc::gen::inRange(0, side)));
   for (auto [x, y] : points) insert_point(tin, {x, y});
@@ -29,15 +29,15 @@ RC_GTEST_PROP(triangulation, stays_delaunay_under_any_insertions, ()) {
 }
 
 RC_GTEST_PROP(triangulation, finds_a_vertex_that_is_there, ()) {
-  Triangulation tin(9, 9);
+  tin::Triangulation tin(9, 9);
   const Point p{*rc::gen::inRange(0, 9), *rc::gen::inRange(0, 9)};
-  const Vertex v = insert_point(tin, p);
+  const tin::Vertex v = insert_point(tin, p);
   insert_point(tin, {4, 4});
   RC_ASSERT(insert_point(tin, p) == v);
 }
 
 TEST(triangulation, holds_every_sample_of_a_grid) {
-  Triangulation tin(17, 13);
+  tin::Triangulation tin(17, 13);
   for (std::int32_t y = 0; y < 13; ++y)
     for (std::int32_t x = 0; x < 17; ++x) insert_point(tin, {x, y});
   EXPECT_EQ(tin.vertex_count(), 17u * 13);
@@ -47,7 +47,7 @@ TEST(triangulation, holds_every_sample_of_a_grid) {
 
 TEST(triangulation, uses_128_bits_beyond_29609_and_stays_delaunay) {
   const std::int32_t side = 46400;
-  Triangulation tin(side, side);
+  tin::Triangulation tin(side, side);
   // Nearly cocircular points at a huge scale: 64-bit determinants would overflow.
   for (std::int32_t k = 0; k < 60; ++k) {
     insert_point(tin, {k * 700 + k % 3, 5 + k % 2});
@@ -59,12 +59,12 @@ TEST(triangulation, uses_128_bits_beyond_29609_and_stays_delaunay) {
 
 RC_GTEST_PROP(triangulation, constrained_segments_become_chains_of_edges, ()) {
   const auto side = *rc::gen::element(6, 25, 40000);
-  Triangulation tin(side, side);
+  tin::Triangulation tin(side, side);
   const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };
   for (int k = *rc::gen::inRange(0, 40); k > 0; --k) insert_point(tin, point());
-  std::vector<std::pair<Vertex, Vertex>> held;
+  std::vector<std::pair<tin::Vertex, tin::Vertex>> held;
   for (int k = 0; k < 6; ++k) {
-    const Vertex a = insert_point(tin, point()), b = insert_point(tin, point());
+    const tin::Vertex a = insert_point(tin, point()), b = insert_point(tin, point());
     if (a != b && tin.constrain(a, b)) held.emplace_back(a, b);
   }
   RC_ASSERT(!held.empty() || tin.vertex_count() < 6);
@@ -75,9 +75,9 @@ RC_GTEST_PROP(triangulation, constrained_segments_become_chains_of_edges, ()) {
 }
 
 TEST(triangulation, refuses_a_segment_across_a_constraint_and_changes_nothing) {
-  Triangulation tin(11, 11);
-  const Vertex a = insert_point(tin, {2, 2}), b = insert_point(tin, {8, 8}), c = insert_point(tin, {8, 2}),
-               d = insert_point(tin, {2, 8});
+  tin::Triangulation tin(11, 11);
+  const tin::Vertex a = insert_point(tin, {2, 2}), b = insert_point(tin, {8, 8}), c = insert_point(tin, {8, 2}),
+                    d = insert_point(tin, {2, 8});
   ASSERT_TRUE(tin.constrain(a, b));
   EXPECT_FALSE(tin.constrain(c, d));
   EXPECT_EQ(verify_triangulation(tin, 11, 11), "");
@@ -85,8 +85,8 @@ TEST(triangulation, refuses_a_segment_across_a_constraint_and_changes_nothing) {
 }
 
 TEST(triangulation, a_segment_through_a_vertex_is_split_there) {
-  Triangulation tin(11, 11);
-  const Vertex a = insert_point(tin, {1, 1}), b = insert_point(tin, {9, 9}), m = insert_point(tin, {5, 5});
+  tin::Triangulation tin(11, 11);
+  const tin::Vertex a = insert_point(tin, {1, 1}), b = insert_point(tin, {9, 9}), m = insert_point(tin, {5, 5});
   ASSERT_TRUE(tin.constrain(a, b));
   EXPECT_TRUE(testing::is_constrained_chain(tin, a, m));
   EXPECT_TRUE(testing::is_constrained_chain(tin, m, b));

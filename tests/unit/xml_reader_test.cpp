@@ -8,12 +8,12 @@
 namespace scarp::xml_reader_test {
 namespace {
 
-using Event = XmlReader::Event;
+using Event = io::XmlReader::Event;
 
 /// The events as text: "<a b=1>", "</a>", "text", "#comment", "." for the end, "!complaint".
 std::string walk(const std::string& text) {
   const auto bytes = test::to_bytes(text);
-  XmlReader xml(bytes);
+  io::XmlReader xml(bytes);
   std::string events;
   for (;;) {
     switch (xml.next()) {
@@ -55,9 +55,9 @@ TEST(XmlReader, InsistsOnOneRootThatIsClosedInOrder) {
 
 TEST(XmlReader, UndoesWhatItWrites) {
   const std::string text = "a<b>&\"c' &amp; \xC3\xA4";
-  EXPECT_EQ(undo_entities(with_entities(text)), text);
-  EXPECT_EQ(undo_entities("&#65;&#x42;&#xe4;&#8364;&#x1F600;"), "AB\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80");
-  EXPECT_EQ(undo_entities("&none; & &#; &#x; &#xFFFFFFFFF; &lt"), "&none; & &#; &#x; &#xFFFFFFFFF; &lt");
+  EXPECT_EQ(io::undo_entities(io::with_entities(text)), text);
+  EXPECT_EQ(io::undo_entities("&#65;&#x42;&#xe4;&#8364;&#x1F600;"), "AB\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80");
+  EXPECT_EQ(io::undo_entities("&none; & &#; &#x; &#xFFFFFFFFF; &lt"), "&none; & &#; &#x; &#xFFFFFFFFF; &lt");
 }
 
 }  // namespace

@@ -43,22 +43,22 @@ Line box(double west, double south, double east, double north) {
 
 TEST(zones, give_materials_by_centre_the_first_zone_before_others) {
   const Mesh mesh = grid(4, 1);
-  Zone holed{{box(0, 0, 4, 1), box(1, 0, 2, 1)}, 7};
-  const std::vector<Zone> zones{holed, {{box(0, 0, 2, 1)}, 5}};
-  EXPECT_EQ(find_materials(mesh, zones, kSame, 3), (std::vector<std::uint32_t>{7, 7, 5, 5, 7, 7, 7, 7}));
+  run::Zone holed{{box(0, 0, 4, 1), box(1, 0, 2, 1)}, 7};
+  const std::vector<run::Zone> zones{holed, {{box(0, 0, 2, 1)}, 5}};
+  EXPECT_EQ(run::find_materials(mesh, zones, kSame, 3), (std::vector<std::uint32_t>{7, 7, 5, 5, 7, 7, 7, 7}));
   // In another frame, the mesh is ten times larger and lies elsewhere.
   Mesh far = mesh;
   for (double& value : far.positions) value *= 10;
   far.origin = {1000, 0, 0};
-  EXPECT_EQ(find_materials(far, zones, {-100, 0.1, 0, 0, 0, 0.1}, 3), find_materials(mesh, zones, kSame, 3));
-  EXPECT_EQ(find_materials(mesh, {}, kSame, 3), std::vector<std::uint32_t>(8, 3));
+  EXPECT_EQ(run::find_materials(far, zones, {-100, 0.1, 0, 0, 0, 0.1}, 3), run::find_materials(mesh, zones, kSame, 3));
+  EXPECT_EQ(run::find_materials(mesh, {}, kSame, 3), std::vector<std::uint32_t>(8, 3));
 }
 
 TEST(zones, strings_follow_edges_along_lines) {
   const Mesh mesh = grid(4, 4);
   const std::vector<Line> lines{line_of({{-1, 2, 0}, {2, 2, 0}, {4, 4, 0}}), line_of({{0, 1.5, 0}, {4, 1.5, 0}}),
                                 line_of({{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}, {1, 1, 0}})};
-  const auto strings = find_node_strings(mesh, lines, kSame, 0.01);
+  const auto strings = run::find_node_strings(mesh, lines, kSame, 0.01);
   ASSERT_EQ(strings.size(), 2u);
   EXPECT_EQ(strings[0].nodes, (std::vector<std::uint32_t>{10, 11, 12, 18, 24}));
   EXPECT_EQ(strings[1].nodes, (std::vector<std::uint32_t>{6, 7, 8, 13, 18, 17, 16, 11, 6}));
@@ -69,7 +69,7 @@ TEST(zones, a_line_that_leaves_the_surface_gives_a_string_for_each_part) {
   Mesh mesh = grid(5, 1);
   // Without the middle square.
   mesh.triangles.erase(mesh.triangles.begin() + 12, mesh.triangles.begin() + 18);
-  const auto strings = find_node_strings(mesh, {line_of({{0, 1, 0}, {5, 1, 0}})}, kSame, 0.01);
+  const auto strings = run::find_node_strings(mesh, {line_of({{0, 1, 0}, {5, 1, 0}})}, kSame, 0.01);
   ASSERT_EQ(strings.size(), 2u);
   EXPECT_EQ(strings[0].nodes, (std::vector<std::uint32_t>{6, 7, 8}));
   EXPECT_EQ(strings[1].nodes, (std::vector<std::uint32_t>{9, 10, 11}));

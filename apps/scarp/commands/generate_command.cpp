@@ -59,15 +59,15 @@ void place(OwnedHeightField& field, double size) {
 }  // namespace
 
 Result<void> run_generate(const GivenOptions& given, const std::string&) {
-  const std::optional<FieldStyle> style = find_field_style(*given[kStyle]);
+  const std::optional<grid::FieldStyle> style = grid::find_field_style(*given[kStyle]);
   if (!style) {
     return fail(ErrorKind::kUsage, fmt::format("STYLE {} is unknown: choose {}", shell_word(*given[kStyle]),
-                                               fmt::join(field_style_names(), ", ")));
+                                               fmt::join(grid::field_style_names(), ", ")));
   }
   SCARP_TRY(const auto cols, given.count(kCols));
   SCARP_TRY(const auto rows, given.count(OptionId::kRows));
   SCARP_TRY(const auto seed, given.count(kSeed));
-  if (seed && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth)
+  if (seed && *style != grid::FieldStyle::kFractal && *style != grid::FieldStyle::kSmooth)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is for fractal and smooth only: {} is always the same", kSeed, *given[kStyle]));
   SCARP_TRY(const auto range, given.number(OptionId::kRange));
@@ -79,7 +79,7 @@ Result<void> run_generate(const GivenOptions& given, const std::string&) {
   SCARP_RETURN_IF_ERROR(check_outputs({{name_of(kOutput), *given[kOutput]}}, {}, given.has(kOverwrite)));
 
   SCARP_TRY(OwnedHeightField field,
-            generate_field(*style, static_cast<int>(*cols), static_cast<int>(*rows), seed.value_or(0)));
+            grid::generate_field(*style, static_cast<int>(*cols), static_cast<int>(*rows), seed.value_or(0)));
   if (range) stretch(field, *range);
   if (size) place(field, *size);
   const Result<std::vector<std::uint8_t>> bytes =

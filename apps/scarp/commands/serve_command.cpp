@@ -30,7 +30,7 @@ constexpr std::uint64_t kDefaultPort = 8080;
 constexpr const char* kDefaultHost = "127.0.0.1";
 constexpr const char* kDefaultMemory = "1G";
 
-std::string describe(const std::string& input, const TileSetReader& set, const LiveTileSet* live,
+std::string describe(const std::string& input, const TileSetReader& set, const jobs::LiveTileSet* live,
                      const std::string& heights_above, const std::string& url) {
   std::uint64_t tiles = 0;
   for (const auto& level : set.tiles()) tiles += level.size();
@@ -48,7 +48,7 @@ std::string describe(const std::string& input, const TileSetReader& set, const L
 
 struct Served {
   OpenedJob job;  ///< job of a raster or a plan
-  LiveTileSet* live = nullptr;
+  jobs::LiveTileSet* live = nullptr;
   std::unique_ptr<TileAnswers> answers;
 };
 
@@ -90,7 +90,7 @@ Result<Served> open(const GivenOptions& given, int threads) {
   Run run;
   run.threads = threads;
   run.progress = display.callback();
-  SCARP_TRY(auto&& set, LiveTileSet::open(served.job.job, served.job.raster->nodes(), memory / 2, run));
+  SCARP_TRY(auto&& set, jobs::LiveTileSet::open(served.job.job, served.job.raster->nodes(), memory / 2, run));
   display.finish();
   served.live = set.get();
   served.answers = std::make_unique<TileAnswers>(std::move(set), base_name(path));

@@ -56,7 +56,7 @@ bool is_tile_set(const std::string& path) {
 /// A mesh for each level that the page can hold, the finest first.
 Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<std::string>& warnings) {
   SCARP_TRY(const auto& set, open_tile_set(path));
-  const auto levels = read_level_meshes(*set, kMostTileBytes);
+  const auto levels = check::read_level_meshes(*set, kMostTileBytes);
   if (!levels && levels.error().kind == ErrorKind::kUsage) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is too large for a page: {}; 'scarp serve {}' serves it to globes, with a page of "
@@ -73,7 +73,7 @@ Result<std::vector<PageMesh>> read_levels(const std::string& path, std::vector<s
         "all of them to globes, with a page of docs/guide/globe.md",
         levels->front().z, finest, format_bytes(kMostTileBytes), shell_word(path)));
   }
-  if (const auto faults = find_set_faults(*set); !faults.empty()) {
+  if (const auto faults = check::find_set_faults(*set); !faults.empty()) {
     const std::string more = faults.size() > 1 ? fmt::format(", and {} more", faults.size() - 1) : "";
     warnings.push_back(fmt::format("{} is not whole: {}{}; 'scarp tile check {}' tells all", path, faults.front(), more,
                                    shell_word(path)));

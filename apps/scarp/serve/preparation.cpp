@@ -20,7 +20,7 @@ constexpr int kLeastUrgent = 19;
 
 }  // namespace
 
-Preparation::Preparation(LiveTileSet& set, int threads) {
+Preparation::Preparation(jobs::LiveTileSet& set, int threads) {
   std::promise<void> promise;
   done_ = promise.get_future();
   thread_ = std::thread([this, &set, threads, promise = std::move(promise)]() mutable {
@@ -38,7 +38,7 @@ Preparation::~Preparation() {
   thread_.join();
 }
 
-void Preparation::prepare(LiveTileSet& set, int threads) const {
+void Preparation::prepare(jobs::LiveTileSet& set, int threads) const {
 #ifdef __linux__
   // Sets the priority of this thread and its children; other systems would change the whole process.
   setpriority(PRIO_PROCESS, 0, kLeastUrgent);

@@ -13,7 +13,7 @@ class Preparation {
  public:
   /// Starts immediately, on a thread of low priority. Warns if preparation fails or `set` has no room for all tiles.
   /// Borrows `set`.
-  Preparation(LiveTileSet& set, int threads);
+  Preparation(jobs::LiveTileSet& set, int threads);
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
   /// Abandons the remaining tiles. A tile in progress cannot be stopped, so after waiting a second the destructor ends
@@ -21,7 +21,7 @@ class Preparation {
   ~Preparation();
 
  private:
-  void prepare(LiveTileSet& set, int threads) const;
+  void prepare(jobs::LiveTileSet& set, int threads) const;
 
   std::atomic<bool> is_over_ = false;
   std::future<void> done_;

@@ -98,7 +98,7 @@ std::vector<std::uint8_t> make_set_page(const std::string& name, const TileSetRe
   if (const auto page_template = read_page_template()) {
     std::optional<OneLevel> level;
     if (makes_tiles) level.emplace(set, find_level(set, kMostMadeTiles));
-    const auto levels = read_level_meshes(level ? *level : set, kMostTileBytes);
+    const auto levels = check::read_level_meshes(level ? *level : set, kMostTileBytes);
     const auto meshes = levels ? encode_levels(name, *levels) : tl::unexpected(levels.error());
     if (meshes) {
       if (auto page = make_view_page(*page_template, name, *meshes, nullptr)) return std::move(page->html);

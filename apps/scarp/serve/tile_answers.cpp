@@ -44,7 +44,7 @@ bool is_tile(const TileSetReader& set, TileId id) {
 Response answer_bytes(const Request& request, const std::string& name, std::vector<std::uint8_t> bytes) {
   Response response;
   const std::string_view type = media_type_of(name);
-  const bool is_packed = is_gzip(bytes) && type != "application/gzip";
+  const bool is_packed = io::is_gzip(bytes) && type != "application/gzip";
   const bool sends_packed = is_packed && accepts_gzip(request.header("accept-encoding"));
   const std::string tag = fmt::format("\"{:016x}{}\"", hash_of(bytes), is_packed && !sends_packed ? "-i" : "");
   response.headers.push_back({"ETag", tag});
@@ -58,7 +58,7 @@ Response answer_bytes(const Request& request, const std::string& name, std::vect
   }
   response.headers.push_back({"Content-Type", std::string(type)});
   if (is_packed && !sends_packed) {
-    auto whole = decompress_gzip(bytes, kMostUnpacked);
+    auto whole = io::decompress_gzip(bytes, kMostUnpacked);
     if (!whole) return text_response(500, fmt::format("{} is damaged: {}", name, whole.error().message));
     bytes = std::move(*whole);
   }
@@ -99,7 +99,7 @@ Response answer_file(const Request& request, const std::string& name, const std:
 
 }  // namespace
 
-TileAnswers::TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name)
+TileAnswers::TileAnswers(std::unique_ptr<jobs::LiveTileSet> set, std::string name)
     : live_(set.get()), name_(std::move(name)) {
   set_ = std::make_unique<ServedSet>(std::move(set));
 }

@@ -17,7 +17,7 @@ class TileAnswers {
   /// in its folder.
   static Result<std::unique_ptr<TileAnswers>> open(const std::string& path);
   /// Answers with tiles made on demand. `name`: the set's name.
-  TileAnswers(std::unique_ptr<LiveTileSet> set, std::string name);
+  TileAnswers(std::unique_ptr<jobs::LiveTileSet> set, std::string name);
 
   /// The current set.
   std::shared_ptr<const TileSetReader> set() const { return set_->now()->reader; }
@@ -36,8 +36,8 @@ class TileAnswers {
   std::string file_url() const { return is_file_ ? "/" + name_ : ""; }
 
   std::unique_ptr<ServedSet> set_;
-  const LiveTileSet* live_ = nullptr;  ///< the set, if it makes tiles on demand
-  std::string name_, folder_;          ///< the folder is empty if the set has none
+  const jobs::LiveTileSet* live_ = nullptr;  ///< the set, if it makes tiles on demand
+  std::string name_, folder_;                ///< the folder is empty if the set has none
   bool is_file_ = false;
 };
 

@@ -8,7 +8,7 @@
 #include "grid/cut_rows.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// The samples of `source`, masked by CutRows::mask_beyond().
 class CutSource final : public SampleSource {
@@ -27,4 +27,4 @@ class CutSource final : public SampleSource {
   std::shared_ptr<const CutRows> cut_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace scarp {
+namespace scarp::grid {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::shared_ptr<const SampleSource> level_source(std::shared_ptr<const SampleSou
   return std::make_shared<LevelSource>(std::move(source), std::move(runs));
 }
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -7,7 +7,7 @@
 #include "grid/sample_runs.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::grid {
 
 /// Samples that are set to a height.
 struct LevelRun {
@@ -21,4 +21,4 @@ struct LevelRun {
 std::shared_ptr<const SampleSource> level_source(std::shared_ptr<const SampleSource> source,
                                                  std::vector<LevelRun> runs);
 
-}  // namespace scarp
+}  // namespace scarp::grid

@@ -84,7 +84,7 @@ Result<BandSense> find_band_sense(GDALDatasetH dataset, const std::string& path,
         ErrorKind::kInput,
         fmt::format("{}: band {} holds complex numbers ({}), which are no heights; take their real parts first ({})",
                     path, options.band, info.sample_type,
-                    translate_command(fmt::format("-ot Float64 -b {}", options.band), path)));
+                    io::translate_command(fmt::format("-ot Float64 -b {}", options.band), path)));
   }
   const char* pixel_type = GDALGetMetadataItem(sense.band, "PIXELTYPE", "IMAGE_STRUCTURE");
   sense.signed_byte = sense.type == GDT_Byte && pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE");
@@ -122,7 +122,7 @@ void warn_of_colours(GDALDatasetH dataset, const BandSense& sense, bool as_value
       info.warnings.push_back(
           fmt::format("{}: has {} bands, and its first alone is taken for the values: select another "
                       "({})",
-                      info.path, count, translate_command("-b 2", info.path)));
+                      info.path, count, io::translate_command("-b 2", info.path)));
     if (meaning == GCI_PaletteIndex)
       info.warnings.push_back(
           info.path + ": this is a picture with a palette, and the numbers of its colours are taken for the values");

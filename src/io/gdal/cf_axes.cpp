@@ -97,7 +97,7 @@ std::string place_in_mercator(const Axes1D& axes, bool is_placed, const std::str
   if (!is_placed || y.front() < y.back()) std::reverse(y.begin(), y.end());
   const double dx = (x.back() - x.front()) / static_cast<double>(x.size() - 1) / 2;
   const double dy = (y.back() - y.front()) / static_cast<double>(y.size() - 1) / 2;
-  return translate_command(
+  return io::translate_command(
       fmt::format("-a_srs EPSG:3857 -a_ullr {:.12g} {:.12g} {:.12g} {:.12g}", kRadius * (x.front() - dx),
                   kRadius * (y.front() - dy), kRadius * (x.back() + dx), kRadius * (y.back() + dy)),
       path);

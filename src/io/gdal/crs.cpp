@@ -143,13 +143,13 @@ std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs
 
 namespace scarp {
 
-bool can_describe_crs() { return true; }
+bool io::can_describe_crs() { return true; }
 
-std::optional<CrsDescription> describe_crs(const std::string& crs) {
+std::optional<io::CrsDescription> io::describe_crs(const std::string& crs) {
   gdal::Session quiet;
   const gdal::Crs known = gdal::find_crs(crs);
   if (!known) return {};
-  CrsDescription description;
+  io::CrsDescription description;
   const char* name = OSRGetName(known.get());
   description.name = name != nullptr ? name : "";
   constexpr std::string_view kEpsg = "EPSG:";
@@ -189,7 +189,7 @@ std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double
   return {};
 }
 
-bool is_same_crs(const std::string& a, const std::string& b) {
+bool io::is_same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;
   gdal::Session quiet;
   return gdal::same_crs(gdal::find_crs(a), gdal::find_crs(b));

@@ -223,7 +223,7 @@ void warn_of_heights(const Georeference& geo, bool is_applied, RasterInfo& info)
       crs.vertical.empty()
           ? fmt::format("heights are taken as heights above the ellipsoid of the raster's CRS; if they are above sea "
                         "level, which lies up to 107 m beside it, name their CRS first ({})",
-                        translate_command("-a_srs " + code + "+5773", info.path))
+                        io::translate_command("-a_srs " + code + "+5773", info.path))
           : fmt::format("heights are above {}, for which PROJ has no grid on this machine: they are taken as heights "
                         "above the ellipsoid of the raster's CRS",
                         crs.vertical));

@@ -15,7 +15,7 @@ struct Georeference;
 struct SpaceCrs {
   Crs crs;                      ///< null if none
   std::string vertical;         ///< reference of its heights, such as "EGM96 height"; empty: unknown
-  HeightUnit unit;              ///< unit of its heights; empty name: unknown
+  io::HeightUnit unit;          ///< unit of its heights; empty name: unknown
   bool is_ellipsoidal = false;  ///< heights are above the ellipsoid
   bool is_down = false;         ///< heights are depths: the vertical axis points down
 };

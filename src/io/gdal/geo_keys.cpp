@@ -87,7 +87,7 @@ std::string read_crs(std::vector<std::uint8_t> tiff) {
 }  // namespace
 }  // namespace scarp::gdal
 
-namespace scarp {
+namespace scarp::io {
 
 std::string describe_geo_keys(const GeoKeys& keys) {
   gdal::SmallTiff tiff;
@@ -107,4 +107,4 @@ std::string describe_geo_keys(const GeoKeys& keys) {
   return gdal::read_crs(tiff.finish());
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

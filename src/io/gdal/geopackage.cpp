@@ -15,7 +15,7 @@
 #include "io/gdal/session.h"
 #include "io/mesh/mesh_file.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 struct DestroyFeature {
@@ -72,4 +72,4 @@ Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh) {
   return bytes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

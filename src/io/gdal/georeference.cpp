@@ -26,7 +26,7 @@ Geodetic geodetic_of(const Georeference& geo) {
 }
 
 /// Metres per unit of x and of y at the centre sample; zeros if unknown.
-MetresPerUnit metres_per_unit(const Georeference& geo) {
+grid::MetresPerUnit metres_per_unit(const Georeference& geo) {
   if (!geo.crs) return {};
   if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
   const auto [east, north] = metres_of_unit(geo.centre()[1], geodetic_of(geo));
@@ -46,14 +46,14 @@ Frame source_frame(const Georeference& geo) {
 
 /// Warns if coordinates resemble degrees, but there is no CRS or its unit is a length.
 void doubt_lengths(const Georeference& geo, RasterInfo& info) {
-  if (geo.geographic || info.format == "memory" || !looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
+  if (geo.geographic || info.format == "memory" || !io::looks_like_degrees(geo.pixels, geo.cols, geo.rows)) return;
   if (geo.crs && OSRIsProjected(geo.crs.get()) == 0) return;
   info.seems_degrees = true;
   if (!geo.crs) {
     info.warnings.push_back(
         fmt::format("the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if "
                     "they are, give it that CRS first ({})",
-                    translate_command("-a_srs EPSG:4326", info.path)));
+                    io::translate_command("-a_srs EPSG:4326", info.path)));
     return;
   }
   const Crs degrees = copy_crs(Crs(OSRCloneGeogCS(geo.crs.get())).get());
@@ -62,7 +62,7 @@ void doubt_lengths(const Georeference& geo, RasterInfo& info) {
       fmt::format("its x and y look like degrees, but its CRS, {}, has the unit {}, of which a cell is {:.3g} wide: "
                   "if they are degrees, that is the wrong CRS; name theirs first ({})",
                   short_name(geo.crs), geo.unit_name, info.cell_x,
-                  translate_command("-a_srs " + (name.starts_with("EPSG:") ? name : "EPSG:4326"), info.path)));
+                  io::translate_command("-a_srs " + (name.starts_with("EPSG:") ? name : "EPSG:4326"), info.path)));
 }
 
 void warn_of_degrees(RasterInfo& info) {
@@ -91,8 +91,8 @@ void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
 }
 
 Result<Frame> centred_frame(const Georeference& geo, RasterInfo& info) {
-  const MetresPerUnit metres = geo.crs ? metres_per_unit(geo) : MetresPerUnit{1, 1};
-  auto frame = local_frame(geo.samples, metres, geo.cols, geo.rows, geo.crs ? short_name(geo.crs) : "");
+  const grid::MetresPerUnit metres = geo.crs ? metres_per_unit(geo) : grid::MetresPerUnit{1, 1};
+  auto frame = grid::local_frame(geo.samples, metres, geo.cols, geo.rows, geo.crs ? short_name(geo.crs) : "");
   if (!frame) return fail(frame.error().kind, info.path + ": " + frame.error().message);
   if (geo.geographic) warn_of_distortion(geo, info);
   return frame;
@@ -205,10 +205,10 @@ Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& 
   if (GDALGetGeoTransform(dataset, pixels->data()) != CE_None) pixels.reset();
   Georeference geo = make_georeference(GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset), pixels,
                                        crs_of(dataset), space_crs_of(declared_crs(dataset)));
-  if (geo.located && is_degenerate(geo.samples)) {
+  if (geo.located && grid::is_degenerate(geo.samples)) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: its geotransform maps the raster to a line or to infinity; give it a place first ({})",
-                            path, translate_command("-a_ullr WEST NORTH EAST SOUTH", path)));
+                            path, io::translate_command("-a_ullr WEST NORTH EAST SOUTH", path)));
   }
   return geo;
 }
@@ -236,15 +236,15 @@ void describe_georeference(const Georeference& geo, RasterInfo& info) {
 Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, RasterInfo& info) {
   const std::string& wanted = options.crs;
   if (!geo.located) {
-    auto frame = ungeoreferenced_frame(info.path, geo.cols, geo.rows, options);
+    auto frame = io::ungeoreferenced_frame(info.path, geo.cols, geo.rows, options);
     if (frame && geo.crs) {
       info.warnings.push_back(info.path + " has a CRS but no position in it: x and y are columns and rows");
     }
     return frame;
   }
-  const std::string way = info.format == "memory" ? "" : translate_command("-a_srs EPSG:CODE", info.path);
+  const std::string way = info.format == "memory" ? "" : io::translate_command("-a_srs EPSG:CODE", info.path);
   SCARP_RETURN_IF_ERROR(verify_degrees(geo.crs, geo.centre(), info.path, way));
-  if (wanted == "grid") return grid_or_cells(info.path, geo.cols, geo.rows, options);
+  if (wanted == "grid") return io::grid_or_cells(info.path, geo.cols, geo.rows, options);
   if (options.cell_size) {
     return fail(ErrorKind::kUsage, info.path +
                                        " has a georeference, which says how wide its cells are: leave the cell size "
@@ -267,7 +267,7 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
                             info.path, wanted,
                             info.format == "memory"
                                 ? "crs with the samples"
-                                : "it its CRS first (" + translate_command("-a_srs EPSG:CODE", info.path) + ")"));
+                                : "it its CRS first (" + io::translate_command("-a_srs EPSG:CODE", info.path) + ")"));
   }
   return is_in_space(wanted) ? earth_frame(geo, wanted, info) : projected_frame(geo, wanted, info);
 }

@@ -20,7 +20,7 @@
 #include "io/gdal/session.h"
 #include "io/raster/raster_source.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kGenerated = "generated";  // RasterInfo::format of a field not read from a raster
@@ -121,4 +121,4 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
   return bytes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -13,8 +13,7 @@
 #include "io/gdal/georeference.h"
 #include "io/gdal/warp_image.h"
 
-namespace scarp {
-namespace gdal {
+namespace scarp::gdal {
 namespace {
 
 /// Larger differences of radii mean different planets.
@@ -33,7 +32,7 @@ Result<Dataset> arrange(Session& session, GDALDatasetH image, const std::string&
   return open_virtual(session, arranged.get(), path);
 }
 
-class WarpedImage final : public GlobeImage {
+class WarpedImage final : public io::GlobeImage {
  public:
   WarpedImage(std::string path, Crs degrees) : path_(std::move(path)), degrees_(std::move(degrees)) {}
 
@@ -131,14 +130,14 @@ class WarpedImage final : public GlobeImage {
   mutable std::vector<Dataset> idle_;
 };
 
-Result<std::shared_ptr<const GlobeImage>> open(const std::string& path, const Geodetic& ellipsoid) {
+Result<std::shared_ptr<const io::GlobeImage>> open(const std::string& path, const Geodetic& ellipsoid) {
   Session session(is_remote(path));
   SCARP_TRY(auto&& image, open_raster(session, path));
   SCARP_TRY(const auto& geo, read_georeference(image.get(), path));
   if (!geo.located || !geo.crs)
     return fail(ErrorKind::kInput,
                 fmt::format("{} does not say where on the globe it lies: give it a position and a CRS ({})", path,
-                            translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
+                            io::translate_command("-a_srs EPSG:4326 -a_ullr WEST NORTH EAST SOUTH", path)));
   const double radius = OSRGetSemiMajor(geo.crs.get(), nullptr);
   if (!(std::abs(radius / ellipsoid.semi_major - 1) <= kSamePlanet))
     return fail(ErrorKind::kInput, fmt::format("{} lies on a planet of {:.0f} m, and the tiles on one of {:.0f} m",
@@ -153,12 +152,14 @@ Result<std::shared_ptr<const GlobeImage>> open(const std::string& path, const Ge
 }
 
 }  // namespace
-}  // namespace gdal
+}  // namespace scarp::gdal
 
-Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid) try {
+namespace scarp::io {
+
+Result<std::shared_ptr<const io::GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid) try {
   return gdal::open(path, ellipsoid);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -16,7 +16,7 @@
 #include "io/gdal/session.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using gdal::Crs;
@@ -229,4 +229,4 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
   return globe;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

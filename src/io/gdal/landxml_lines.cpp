@@ -19,12 +19,12 @@ namespace scarp::gdal {
 namespace {
 
 using OwnedGeometry = std::unique_ptr<OGRGeometry>;
-using Boundaries = std::vector<LandXmlBoundary>;
+using Boundaries = std::vector<io::LandXmlBoundary>;
 
 /// The boundaries of the surface. Fails if there are none, or if there are several surfaces and no name.
 Result<Boundaries> choose(Boundaries all, const std::string& path, const std::string& surface) {
   std::vector<std::string> names;
-  for (const LandXmlBoundary& one : all) {
+  for (const io::LandXmlBoundary& one : all) {
     if (std::find(names.begin(), names.end(), one.surface) == names.end()) names.push_back(one.surface);
   }
   if (names.empty())
@@ -34,10 +34,11 @@ Result<Boundaries> choose(Boundaries all, const std::string& path, const std::st
     return fail(ErrorKind::kInput, fmt::format("{}: holds boundaries of several surfaces; name one, as in {}:{}: {}",
                                                path, path, names.front(), list));
   const std::string& name = surface.empty() ? names.front() : surface;
-  std::erase_if(all, [&](const LandXmlBoundary& one) { return one.surface != name; });
+  std::erase_if(all, [&](const io::LandXmlBoundary& one) { return one.surface != name; });
   if (all.empty())
     return fail(ErrorKind::kInput, fmt::format("{} has no surface '{}' with boundaries (found: {})", path, name, list));
-  if (std::none_of(all.begin(), all.end(), [](const LandXmlBoundary& one) { return one.kind == BoundaryKind::kOuter; }))
+  if (std::none_of(all.begin(), all.end(),
+                   [](const io::LandXmlBoundary& one) { return one.kind == io::BoundaryKind::kOuter; }))
     return fail(ErrorKind::kInput, fmt::format("{}: the surface {} has no outer boundary, only voids", path, name));
   return all;
 }
@@ -87,10 +88,10 @@ void add_rings(const OGRPolygon& polygon, const std::string& name, LineSet& set)
 
 /// Sorts outer boundaries first, then by decreasing size.
 void sort_boundaries(Boundaries& boundaries) {
-  std::vector<std::pair<double, LandXmlBoundary>> sorted;
-  for (LandXmlBoundary& one : boundaries) {
+  std::vector<std::pair<double, io::LandXmlBoundary>> sorted;
+  for (io::LandXmlBoundary& one : boundaries) {
     constexpr double kFirst = std::numeric_limits<double>::infinity();
-    const double area = one.kind == BoundaryKind::kOuter ? kFirst : polygon_of(one.ring).get_Area();
+    const double area = one.kind == io::BoundaryKind::kOuter ? kFirst : polygon_of(one.ring).get_Area();
     sorted.emplace_back(area, std::move(one));
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -101,8 +102,8 @@ void sort_boundaries(Boundaries& boundaries) {
 /// Subtracts voids from larger boundaries and adds islands.
 Result<void> make_polygons(Session& session, Boundaries boundaries, const std::string& name, LineSet& set) {
   if (std::none_of(boundaries.begin(), boundaries.end(),
-                   [](const LandXmlBoundary& one) { return one.kind == BoundaryKind::kVoid; })) {
-    for (LandXmlBoundary& one : boundaries) {
+                   [](const io::LandXmlBoundary& one) { return one.kind == io::BoundaryKind::kVoid; })) {
+    for (io::LandXmlBoundary& one : boundaries) {
       one.ring.polygon = set.polygons++;
       one.ring.name = name;
       set.lines.push_back(std::move(one.ring));
@@ -114,9 +115,10 @@ Result<void> make_polygons(Session& session, Boundaries boundaries, const std::s
   sort_boundaries(boundaries);
   OwnedGeometry whole = std::make_unique<OGRPolygon>();
   for (auto first = boundaries.cbegin(), end = first; first != boundaries.cend() && whole; first = end) {
-    const bool is_void = first->kind == BoundaryKind::kVoid;
-    end = std::find_if(first, boundaries.cend(),
-                       [is_void](const LandXmlBoundary& one) { return (one.kind == BoundaryKind::kVoid) != is_void; });
+    const bool is_void = first->kind == io::BoundaryKind::kVoid;
+    end = std::find_if(first, boundaries.cend(), [is_void](const io::LandXmlBoundary& one) {
+      return (one.kind == io::BoundaryKind::kVoid) != is_void;
+    });
     const OwnedGeometry part = unite(first, end);
     whole.reset(!part ? nullptr : is_void ? whole->Difference(part.get()) : whole->Union(part.get()));
   }
@@ -128,8 +130,8 @@ Result<void> make_polygons(Session& session, Boundaries boundaries, const std::s
 }
 
 /// Fails unless the unit of a file without CRS is that of the input, or unknown.
-Result<void> check_unit(const HeightUnit& unit, const std::string& path, const ReadLinesOptions& options) {
-  const auto crs = describe_crs(options.crs);
+Result<void> check_unit(const io::HeightUnit& unit, const std::string& path, const ReadLinesOptions& options) {
+  const auto crs = io::describe_crs(options.crs);
   const double metres = !crs ? options.unit_in_metres : crs->is_geographic ? 0 : crs->unit_in_metres;
   if (unit.metres == 0 || metres == 0 || std::abs(unit.metres / metres - 1) <= 1e-5) return {};
   return fail(ErrorKind::kInput, fmt::format("{}: names no CRS, its unit is {}, and that of the input is {:.9g} m: "
@@ -141,17 +143,17 @@ Result<void> check_unit(const HeightUnit& unit, const std::string& path, const R
 
 Result<LineSet> read_landxml_lines(Session& session, const std::string& path, const std::string& surface,
                                    const ReadLinesOptions& options) {
-  SCARP_TRY(const auto& declared, read_declared_crs(path));
+  SCARP_TRY(const auto& declared, io::read_declared_crs(path));
   SCARP_TRY(const auto& bytes, read_file(path));
-  SCARP_TRY(auto&& found, read_landxml_boundaries(bytes, path));
-  LandXmlHead& head = found.head;
+  SCARP_TRY(auto&& found, io::read_landxml_boundaries(bytes, path));
+  io::LandXmlHead& head = found.head;
   LineSet set;
   if (head.crs.empty()) head.crs = declared;
   SCARP_RETURN_IF_ERROR(head.check(path));
   if (head.has_crs()) {
     set.crs = head.crs;
   } else {
-    if (!head.crs.empty()) set.warnings.push_back(warn_of_unknown_crs(head, path));
+    if (!head.crs.empty()) set.warnings.push_back(io::warn_of_unknown_crs(head, path));
     SCARP_RETURN_IF_ERROR(check_unit(head.unit(), path, options));
   }
   SCARP_TRY(auto&& boundaries, choose(std::move(found.rings), path, surface));

@@ -32,12 +32,12 @@ std::string gdalwarp(const std::string& options, const Tile& tile) {
   const char* wide = band.type == GDT_Int32 || band.type == GDT_UInt32 ? " -ot Float64" : " -ot Float32";
   return fmt::format("(gdalwarp {}{} {} {})", options,
                      tells ? "" : std::string(GDALDataTypeIsFloating(band.type) ? "" : wide) + " -dstnodata nan",
-                     file_word(tile.path), new_file(".tif"));
+                     io::file_word(tile.path), io::new_file(".tif"));
 }
 
 /// A command that copies the raster with new metadata, since many formats accept no later changes.
 std::string edit_command(const std::string& options, const std::string& path) {
-  return fmt::format("{} && gdal_edit.py {} {}", translate_command("", path), options, new_file(".tif"));
+  return fmt::format("{} && gdal_edit.py {} {}", io::translate_command("", path), options, io::new_file(".tif"));
 }
 
 Result<Tile> look_at(Session& session, const std::string& path) {
@@ -52,7 +52,7 @@ Result<Tile> look_at(Session& session, const std::string& path) {
   if (tile.gt[2] != 0 || tile.gt[4] != 0) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: is rotated, so that it has no place in a mosaic: turn it first ({})", path,
-                            warp_command("", path)));
+                            io::warp_command("", path)));
   }
   return tile;
 }
@@ -82,14 +82,14 @@ std::string describe_unit_difference(const Tile& first, const Tile& tile, std::s
     const std::string &named = b.unit.empty() ? a.unit : b.unit, says = "heights in " + named;
     return fmt::format("has {}, and {} {}: if {} has the same unit, declare it first ({})",
                        b.unit.empty() ? "no unit" : says, first.path, a.unit.empty() ? "no unit" : says, without.path,
-                       edit_command("-units " + file_word(named), without.path));
+                       edit_command("-units " + io::file_word(named), without.path));
   }
   const double ratio = metres_in(a.unit) == 0 ? 0 : metres_in(b.unit) / metres_in(a.unit);
   const std::string way =
       ratio == 0 ? "give rasters of one unit"
                  : fmt::format("bring it to one unit first ({})",
                                edit_command(fmt::format("-scale {:.17g} -offset {:.17g} -units {}", b.scale * ratio,
-                                                        b.offset * ratio, file_word(a.unit)),
+                                                        b.offset * ratio, io::file_word(a.unit)),
                                             tile.path));
   return fmt::format("has heights in {}, and {} in {}: {}", b.unit, first.path, a.unit, way);
 }
@@ -106,7 +106,7 @@ std::string bring_there(const Tile& first, const Tile& tile) {
       (with_heights.empty() || !Passage(tile.space.crs, first.space.crs, true).usable()))
     return "PROJ knows no way between their heights on this machine: install its grids (projsync, or Debian's "
            "proj-data), or give rasters of one vertical datum";
-  const std::string crs = file_word(with_heights.empty() ? crs_name(first.crs) : with_heights);
+  const std::string crs = io::file_word(with_heights.empty() ? crs_name(first.crs) : with_heights);
   return "bring it there first " + gdalwarp(fmt::format("-t_srs {} -r bilinear", crs), tile);
 }
 
@@ -122,7 +122,7 @@ std::string describe_datum_difference(const Tile& first, const Tile& tile) {
     way = bring_there(first, tile);
   } else if (const std::string crs = name_with_heights(named.space.crs); !crs.empty()) {
     way = fmt::format("if {} has the same, declare it first ({})", other.path,
-                      translate_command("-a_srs " + file_word(crs), other.path));
+                      io::translate_command("-a_srs " + io::file_word(crs), other.path));
   }
   return fmt::format("has {}, and {} {}: {}", say(b), first.path, say(a), way);
 }
@@ -147,14 +147,14 @@ std::string find_difference(const Tile& first, const Tile& tile) {
       return fmt::format(
           "is in {}, and {} in {}: if {} is in the same, name it first ({})", name(tile), first.path, name(first),
           without.path,
-          translate_command("-a_srs " + file_word(crs_name((tile.crs ? tile : first).crs)), without.path));
+          io::translate_command("-a_srs " + io::file_word(crs_name((tile.crs ? tile : first).crs)), without.path));
     }
     return fmt::format("is in {}, and {} in {}: {}", name(tile), first.path, name(first), bring_there(first, tile));
   }
   if (heights_of(first) != heights_of(tile)) return describe_datum_difference(first, tile);
   if (tile.bands.size() != first.bands.size()) {
     return fmt::format("has {} bands, and {} has {}: choose one of the bands first ({})", tile.bands.size(), first.path,
-                       first.bands.size(), translate_command("-b 1", (tile.bands.size() > 1 ? tile : first).path));
+                       first.bands.size(), io::translate_command("-b 1", (tile.bands.size() > 1 ? tile : first).path));
   }
   for (std::size_t k = 0; k < tile.bands.size(); ++k) {
     const BandFacts &a = first.bands[k], &b = tile.bands[k];
@@ -162,7 +162,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
     if (!can_join(hard.bands[k].type))
       return fmt::format("and {} make no mosaic, since {} holds {}: give it another type first ({})", first.path,
                          hard.path, GDALGetDataTypeName(hard.bands[k].type),
-                         translate_command("-ot Float64", hard.path));
+                         io::translate_command("-ot Float64", hard.path));
     if (a.is_alpha != b.is_alpha) {
       return fmt::format(
           "and {} make no mosaic, since band {} is transparency in one of them alone: give rasters of one "
@@ -175,7 +175,7 @@ std::string find_difference(const Tile& first, const Tile& tile) {
   if (dx * tile.gt[1] < 0 || dy * tile.gt[5] < 0) {
     const Tile& turned = tile.gt[1] < 0 || tile.gt[5] > 0 ? tile : first;
     return fmt::format("and {} begin at different sides: make {} north up first {}", first.path, turned.path,
-                       fmt::format("(gdalwarp {} {})", file_word(turned.path), new_file(".tif")));
+                       fmt::format("(gdalwarp {} {})", io::file_word(turned.path), io::new_file(".tif")));
   }
   const double size = std::max(std::abs(tile.gt[1] - dx) * std::max(tile.cols, first.cols) / std::abs(dx),
                                std::abs(tile.gt[5] - dy) * std::max(tile.rows, first.rows) / std::abs(dy));
@@ -253,12 +253,13 @@ Result<bool> place_tiles(std::vector<Tile>& tiles) {
       const double x = gt[0] + std::round(moved) * gt[1];
       return fail(
           ErrorKind::kInput,
-          fmt::format("{} lies on the other side of the end of x, and once around the earth {:.3g} of a cell beside "
-                      "the grid: move it first ({})",
-                      tile.path, off_whole(moved),
-                      translate_command(fmt::format("-a_ullr {:.17g} {:.17g} {:.17g} {:.17g}", x, tile.gt[3],
-                                                    x + tile.cols * tile.gt[1], tile.gt[3] + tile.rows * tile.gt[5]),
-                                        tile.path)));
+          fmt::format(
+              "{} lies on the other side of the end of x, and once around the earth {:.3g} of a cell beside "
+              "the grid: move it first ({})",
+              tile.path, off_whole(moved),
+              io::translate_command(fmt::format("-a_ullr {:.17g} {:.17g} {:.17g} {:.17g}", x, tile.gt[3],
+                                                x + tile.cols * tile.gt[1], tile.gt[3] + tile.rows * tile.gt[5]),
+                                    tile.path)));
     }
     tile.col = std::llround(moved);
   }

@@ -73,7 +73,7 @@ std::vector<std::string> find_subdatasets(GDALDatasetH dataset) {
 
 std::string join(const std::vector<std::string>& names, std::size_t most) {
   std::string text;
-  for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k == 0 ? "" : ", ") + file_word(names[k]);
+  for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k == 0 ? "" : ", ") + io::file_word(names[k]);
   if (names.size() > most) text += ", …";
   return text;
 }
@@ -124,19 +124,19 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
     return fail(ErrorKind::kInput,
                 fmt::format("{0}: HDF4 is not read, since its library crashes on damaged files: convert it first "
                             "(gdal_translate {1} {2}; where it holds several rasters gdal_translate -sds {1} {2})",
-                            path, file_word(path), new_file(".tif")));
+                            path, io::file_word(path), io::new_file(".tif")));
   }
   VSIStatBufL status{};
   const bool exists = VSIStatL(vsi.c_str(), &status) == 0;
   if (is_remote(path)) return refuse_remote(path, vsi, reason);
-  if (!exists) return fail(ErrorKind::kInput, path + ": " + describe_missing(path));
+  if (!exists) return fail(ErrorKind::kInput, path + ": " + io::describe_missing(path));
   if (VSI_ISDIR(status.st_mode)) return fail(ErrorKind::kInput, path + ": a directory, not a raster");
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
   VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
   if (file == nullptr) return fail(ErrorKind::kInput, path + ": the file cannot be opened for reading (permissions?)");
   VSIFCloseL(file);
-  const std::string kind = describe_kind(path, read_head(vsi), status.st_size);
-  for (const std::string& what : {kind, describe_marked_text(path, read_head(vsi))}) {
+  const std::string kind = io::describe_kind(path, read_head(vsi), status.st_size);
+  for (const std::string& what : {kind, io::describe_marked_text(path, read_head(vsi))}) {
     if (!what.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, what));
   }
   // A driver that recognises the file but fails (a truncated TIFF) has a better message.
@@ -145,7 +145,7 @@ tl::unexpected<Error> explain(Session& session, const std::string& given, const 
       return fail(ErrorKind::kInput,
                   fmt::format("{}: holds points that lie on no grid ({}), and a raster is asked for: make one of them "
                               "first ({})",
-                              path, reason, rasterize_command(path)));
+                              path, reason, io::rasterize_command(path)));
     }
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));
@@ -242,7 +242,7 @@ GDALDriverH identify_driver(const std::string& vsi, unsigned kind) {
 }
 
 Result<Dataset> open_raster(Session& session, const std::string& path) {
-  SCARP_TRY(const auto& name, readable_name(path));
+  SCARP_TRY(const auto& name, io::readable_name(path));
   SCARP_TRY(const auto& grid, find_text_grid(path));
   const std::string vsi = grid.empty() ? vsi_path(name) : grid;
   session.clear();

@@ -2,7 +2,7 @@
 #include "io/gdal/session.h"
 #include "io/lent.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
   gdal::Session session;
@@ -14,4 +14,4 @@ Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& opt
   return gdal::choose_frame(geo, options, info);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include "io/globe_place.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
@@ -111,4 +111,4 @@ Result<PlaneOnGlobe> find_plane_on_globe(const RasterInfo& info, const LocalRast
   return plane;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

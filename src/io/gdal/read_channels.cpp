@@ -14,8 +14,7 @@
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 
-namespace scarp {
-namespace gdal {
+namespace scarp::gdal {
 namespace {
 
 constexpr float kNoChannel = std::numeric_limits<float>::quiet_NaN();
@@ -52,7 +51,7 @@ Result<ChannelBands> choose_bands(GDALDatasetH dataset, const std::string& path,
     for (int k = 1, taken = 0; k <= count && taken < kMaxChannels; ++k) {
       if (k != left_out) words += fmt::format("{}-b {}", taken++ == 0 ? "" : " ", k);
     }
-    return translate_command(words, path);
+    return io::translate_command(words, path);
   };
   ChannelBands chosen;
   for (int k = first; k <= last; ++k) {
@@ -145,8 +144,8 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
   SCARP_TRY(auto&& chosen, choose_bands(dataset.get(), path, options, all_bands, channels.info));
   SCARP_TRY(auto&& geo, read_georeference(dataset.get(), path));
   describe_georeference(geo, channels.info);
-  SCARP_RETURN_IF_ERROR(check_raster_size(path, static_cast<std::uint64_t>(geo.cols),
-                                          static_cast<std::uint64_t>(geo.rows), options, chosen.channels));
+  SCARP_RETURN_IF_ERROR(io::check_raster_size(path, static_cast<std::uint64_t>(geo.cols),
+                                              static_cast<std::uint64_t>(geo.rows), options, chosen.channels));
   SCARP_TRY(channels.frame, choose_frame(geo, options, channels.info));
   channels.cols = geo.cols;
   channels.rows = geo.rows;
@@ -158,7 +157,7 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
     field.cols = geo.cols;
     field.rows = geo.rows;
     field.info.path = path;
-    SCARP_RETURN_IF_ERROR(allocate_samples(path, field));
+    SCARP_RETURN_IF_ERROR(io::allocate_samples(path, field));
   }
   std::uint64_t infinities = 0;
   SCARP_RETURN_IF_ERROR(read_bands(session, chosen.bands, options, fields, infinities));
@@ -175,10 +174,12 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
 }
 
 }  // namespace
-}  // namespace gdal
+}  // namespace scarp::gdal
+
+namespace scarp::io {
 
 Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions& options, bool all_bands) {
   return gdal::read(path, options, all_bands);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -13,8 +13,7 @@
 #include "io/gdal/warp_image.h"
 #include "scarp/io.h"
 
-namespace scarp {
-namespace gdal {
+namespace scarp::gdal {
 namespace {
 
 /// Number of the image's pixels along the raster's sides; nothing if the conversion fails.
@@ -63,7 +62,7 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
         fmt::format(
             "{} has {}, and the raster has {}: give {} a place first ({}){}", path,
             geo.located ? "a place" : "no place", geo.located ? "none" : "one", geo.located ? "the raster" : "it",
-            translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", geo.located ? raster.path : path),
+            io::translate_command("-a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH", geo.located ? raster.path : path),
             geo.located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
   }
   Drape drape;
@@ -106,7 +105,9 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
 }
 
 }  // namespace
-}  // namespace gdal
+}  // namespace scarp::gdal
+
+namespace scarp {
 
 Result<Drape> read_drape(const std::string& path, const RasterInfo& raster, int cols, int rows, int size,
                          const Run& run) try {

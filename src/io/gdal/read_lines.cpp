@@ -191,7 +191,7 @@ class LineCollector {
   void find_unknown(Line& line) {
     const auto is_unknown = [](const std::array<double, 3>& place) { return std::isnan(place[2]); };
     const auto first = std::find_if(line.points.begin(), line.points.end(), is_unknown) - line.points.begin();
-    const std::uint64_t filled = fill_heights(line.points, line.is_ring());
+    const std::uint64_t filled = io::fill_heights(line.points, line.is_ring());
     if (filled > 0 && filled_ == 0) first_filled_ = fmt::format("vertex {} of {}", first + 1, name_);
     filled_ += filled;
   }
@@ -260,10 +260,11 @@ Result<void> place(const Crs& crs, const std::string& wanted, LineSet& set) {
 
 /// Converts heights in a known unit to units of `unit_in_metres`.
 void convert_heights(OGRLayerH layer, std::optional<int> height_field, double unit_in_metres, LineSet& set) {
-  HeightUnit unit = space_crs_of(declared_layer_crs(layer)).unit;
+  io::HeightUnit unit = space_crs_of(declared_layer_crs(layer)).unit;
   const char* field =
       height_field ? OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer), *height_field)) : "";
-  if (const std::string named = unit_named_in(field); !named.empty()) unit = {named, find_metres(named).value_or(0)};
+  if (const std::string named = io::unit_named_in(field); !named.empty())
+    unit = {named, io::find_metres(named).value_or(0)};
   const double factor = unit.metres / unit_in_metres;
   if (unit.metres == 0 || factor == 1) return;
   bool has_heights = false;
@@ -282,7 +283,7 @@ void convert_heights(OGRLayerH layer, std::optional<int> height_field, double un
 Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) {
   Session session(is_remote(path));
   const NamedLayer named = split_layer(path);
-  if (is_landxml(named.file)) {
+  if (io::is_landxml(named.file)) {
     SCARP_TRY(auto&& set, read_landxml_lines(session, named.file, named.layer, options));
     SCARP_RETURN_IF_ERROR(place(set.crs.empty() ? nullptr : find_crs(set.crs), options.crs, set));
     return std::move(set);
@@ -316,7 +317,7 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options, d
 }  // namespace
 }  // namespace scarp::gdal
 
-namespace scarp {
+namespace scarp::io {
 
 Result<LineSet> read_lines_in(const std::string& path, const ReadLinesOptions& options, double unit_in_metres) try {
   return gdal::read(path, options, unit_in_metres);
@@ -324,4 +325,4 @@ Result<LineSet> read_lines_in(const std::string& path, const ReadLinesOptions& o
   return caught(ErrorKind::kInput, "read " + path);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

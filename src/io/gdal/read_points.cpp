@@ -42,7 +42,7 @@ bool holds_polygons(OGRLayerH layer) {
 /// The remedy for contours that are polygons.
 std::string make_lines(const std::string& path) {
   return fmt::format("if their rings are contours, make lines of them first (ogr2ogr -nlt MULTILINESTRING {} {})",
-                     new_file(".gpkg"), file_word(path));
+                     io::new_file(".gpkg"), io::file_word(path));
 }
 
 /// The layers to read: those named by `wanted`, else the first layer of points, else the first layer of lines.
@@ -53,7 +53,7 @@ Result<std::vector<VectorLayer>> find_layers(GDALDatasetH dataset, const std::st
     return std::find_if(layers.begin(), layers.end(), [&](const VectorLayer& layer) { return layer.name == name; });
   };
   std::vector<VectorLayer> found;
-  for (const std::string& name : layer_list(wanted, [&](const auto& all) { return named(all) != layers.end(); })) {
+  for (const std::string& name : io::layer_list(wanted, [&](const auto& all) { return named(all) != layers.end(); })) {
     const auto layer = named(name);
     if (layer == layers.end())
       return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, name, layer_names(layers)));
@@ -109,7 +109,7 @@ std::string list_of_fields(OGRLayerH layer, bool heights_only, int without = -1)
   std::string list;
   for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i) {
     const char* name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
-    if (i != without && (!heights_only || role_of(name) == ColumnRole::kHeight))
+    if (i != without && (!heights_only || io::role_of(name) == io::ColumnRole::kHeight))
       list += (list.empty() ? "" : ", ") + std::string(name);
   }
   return list;
@@ -122,9 +122,9 @@ std::optional<int> find_named_height(OGRLayerH layer) {
   std::size_t least = 0;
   for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i) {
     const char* name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
-    if (role_of(name) != ColumnRole::kHeight || (best && rank_of(name) >= least)) continue;
+    if (io::role_of(name) != io::ColumnRole::kHeight || (best && io::rank_of(name) >= least)) continue;
     best = i;
-    least = rank_of(name);
+    least = io::rank_of(name);
   }
   return best;
 }
@@ -138,7 +138,7 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
   };
   const auto take = [&](int index) {
     points.columns = "height: attribute " + name_of(index);
-    points.heights.unit = unit_named_in(name_of(index));
+    points.heights.unit = io::unit_named_in(name_of(index));
   };
   if (!wanted.empty()) {
     SCARP_TRY(const auto& index, find_field(layer, path, wanted));
@@ -253,7 +253,7 @@ class PointCollector {
   }
 
   Result<void> add_line(OGRGeometryH geometry, std::optional<double> height) {
-    LinePoints line(points_);
+    io::LinePoints line(points_);
     for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
       const std::size_t before = points_.size();
       SCARP_RETURN_IF_ERROR(add_point(geometry, i, height));
@@ -292,12 +292,12 @@ class PointCollector {
 /// Converts degrees to metres by the two constants of the ellipsoid at the middle of the points; see
 /// grid/local_frame.cpp.
 Result<void> make_local(const Crs& crs, PointSet& points) {
-  const auto [x, y] = middle_of(points);
-  SCARP_RETURN_IF_ERROR(verify_degrees(crs, {x, y}, points.path, crs_command(points, "EPSG:CODE")));
-  MetresPerRadian metres{1, 1};
+  const auto [x, y] = io::middle_of(points);
+  SCARP_RETURN_IF_ERROR(verify_degrees(crs, {x, y}, points.path, io::crs_command(points, "EPSG:CODE")));
+  grid::MetresPerRadian metres{1, 1};
   if (OSRIsGeographic(crs.get()) != 0) {
     OGRErr error = OGRERR_NONE;
-    const Ellipsoid ellipsoid{OSRGetSemiMajor(crs.get(), &error), OSRGetInvFlattening(crs.get(), &error)};
+    const grid::Ellipsoid ellipsoid{OSRGetSemiMajor(crs.get(), &error), OSRGetInvFlattening(crs.get(), &error)};
     const double radians = OSRGetAngularUnits(crs.get(), nullptr), latitude = y * radians;
     const auto [low, high] = std::minmax_element(points.y.begin(), points.y.end());
     if (!(std::max(std::abs(*low), std::abs(*high)) * radians <= std::acos(0.0) + 1e-9) || !(std::cos(latitude) > 1e-3))
@@ -306,7 +306,7 @@ Result<void> make_local(const Crs& crs, PointSet& points) {
           fmt::format("{}: the middle of the points lies at {:.9g}, {:.9g}, at or beyond a pole, where no local "
                       "frame exists; choose a polar CRS such as EPSG:3413 or EPSG:3031",
                       points.path, x, y));
-    metres = metres_per_radian(ellipsoid, latitude);
+    metres = grid::metres_per_radian(ellipsoid, latitude);
     metres = {metres.east * radians, metres.north * radians};
     const double widest = std::max(std::cos(*low * radians), std::cos(*high * radians)) / std::cos(latitude),
                  narrowest = std::min(std::cos(*low * radians), std::cos(*high * radians)) / std::cos(latitude);
@@ -317,7 +317,7 @@ Result<void> make_local(const Crs& crs, PointSet& points) {
   } else {
     metres = {points.unit_in_metres, points.unit_in_metres};
   }
-  make_local_metres({metres.east, metres.north}, short_name(crs), points);
+  io::make_local_metres({metres.east, metres.north}, short_name(crs), points);
   return {};
 }
 
@@ -359,7 +359,7 @@ Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& p
     points.heights.crs_unit = name != nullptr ? name : "the unit of x and y";
     points.heights.crs_unit_in_metres = points.unit_in_metres;
   }
-  if (wanted.empty() && !is_geographic && !becomes_local(options, points.unit_in_metres)) return {};
+  if (wanted.empty() && !is_geographic && !io::becomes_local(options, points.unit_in_metres)) return {};
   if (wanted == "source") {
     if (is_geographic)
       points.warnings.push_back(
@@ -369,7 +369,7 @@ Result<void> place(const Crs& crs, const ReadPointsOptions& options, PointSet& p
   if (!crs)
     return fail(ErrorKind::kUsage, fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for "
                                                "'source', or give it its CRS first (ogr2ogr -a_srs EPSG:CODE {} {})",
-                                               points.path, wanted, new_file(".gpkg"), file_word(points.path)));
+                                               points.path, wanted, io::new_file(".gpkg"), io::file_word(points.path)));
   return wanted.empty() || wanted == "local" ? make_local(crs, points) : project(crs, wanted, points);
 }
 
@@ -424,7 +424,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   for (const VectorLayer& layer : layers) {
     SCARP_RETURN_IF_ERROR(read_layer(session, layer, layers.size() == 1, options, points));
   }
-  SCARP_RETURN_IF_ERROR(crop(options, points));
+  SCARP_RETURN_IF_ERROR(io::crop(options, points));
   const Crs crs = layer_crs(layers.front().of);
   for (const VectorLayer& layer : layers) {
     if (const Crs other = layer_crs(layer.of); crs ? !other || !same_crs(crs, other) : bool{other})
@@ -433,7 +433,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   }
   SCARP_RETURN_IF_ERROR(place(crs, options, points));
   const SpaceCrs in_space = space_crs_of(declared_layer_crs(layers.front().of));
-  SCARP_RETURN_IF_ERROR(settle_point_heights(options, in_space.unit, points));
+  SCARP_RETURN_IF_ERROR(io::settle_point_heights(options, in_space.unit, points));
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
   return points;
 }
@@ -441,7 +441,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
 }  // namespace
 }  // namespace scarp::gdal
 
-namespace scarp {
+namespace scarp::io {
 
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options) {
   return gdal::read(path, options);
@@ -461,4 +461,4 @@ bool opens_as_raster(const std::string& path) {
   return dataset && !EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get())), "XYZ");
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

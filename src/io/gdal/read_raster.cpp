@@ -23,8 +23,7 @@
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 
-namespace scarp {
-namespace gdal {
+namespace scarp::gdal {
 namespace {
 
 /// An open and interpreted raster whose samples are not yet read.
@@ -84,7 +83,7 @@ Result<UnreadRaster> open_unread(Session& session, const std::string& path, cons
   if (!geo.located && GDALGetGCPCount(unread.dataset.get()) > 0) {
     unread.info.warnings.push_back(
         fmt::format("the raster is placed by ground control points, which are not used: rectify it first ({})",
-                    warp_command("", path)));
+                    io::warp_command("", path)));
   }
   unread.georeference = std::move(geo);
   return unread;
@@ -140,13 +139,14 @@ Result<OpenedRaster> open(Session& session, const std::string& path, ReadOptions
   SCARP_TRY(auto&& unread, open_unread(session, path, options));
   const Georeference& geo = unread.georeference;
   const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
-  SCARP_RETURN_IF_ERROR(check_raster_sides(path, cols, rows));
+  SCARP_RETURN_IF_ERROR(io::check_raster_sides(path, cols, rows));
   SCARP_TRY(auto&& frame, choose_frame(geo, options, unread.info));
   SCARP_TRY(options, settle_heights(options, frame, unread.info, geo.in_space.unit));
   // Applied to the band's scale, so that all ways of reading include it.
   unread.band.scale *= options.z_scale;
   unread.band.offset = options.z_scale * unread.band.offset + options.z_offset;
-  if (options.heights_in != HeightsIn::kMetres) warn_of_units(frame, unread.info);  // else the caller handles x and y
+  if (options.heights_in != HeightsIn::kMetres)
+    io::warn_of_units(frame, unread.info);  // else the caller handles x and y
   OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
@@ -164,19 +164,19 @@ Result<void> refuse_beyond(const Findings& findings, const std::string& path, co
       fmt::format("{}: the value {:.6g} at column {}, row {} is beyond what a float32 holds (3.4e38): if it means "
                   "nodata, give --nodata {:.17g}, else give the heights in a larger unit first ({})",
                   path, findings.beyond->value, findings.beyond->col, findings.beyond->row, findings.beyond->value,
-                  translate_command("-ot Float64 -scale 0 1e10 0 1", path)));
+                  io::translate_command("-ot Float64 -scale 0 1e10 0 1", path)));
 }
 
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
   OwnedHeightField& field = opened.field;
   const std::string& path = field.info.path;
-  SCARP_RETURN_IF_ERROR(allocate_samples(path, field, options.run.threads));
+  SCARP_RETURN_IF_ERROR(io::allocate_samples(path, field, options.run.threads));
   const auto reader = opened.make_reader(options);
   SCARP_TRY(const auto& found,
             read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field));
   add_gdal_warnings(session, field.info);
   doubt_colours(found, options.decode, find_loss(opened.unread.dataset.get()), field.info);
-  SCARP_RETURN_IF_ERROR(finish_raster(field, found.infinities, options));
+  SCARP_RETURN_IF_ERROR(io::finish_raster(field, found.infinities, options));
   warn_of_depths(opened.unread, options, field.info);
   SCARP_RETURN_IF_ERROR(refuse_beyond(found, path, options));
   return std::move(field);
@@ -186,7 +186,7 @@ Result<OwnedHeightField> read(const std::string& path, ReadOptions options) {
   Session session(is_remote(path));
   SCARP_TRY(auto&& opened, open(session, path, options));
   const auto cols = static_cast<std::uint64_t>(opened.field.cols), rows = static_cast<std::uint64_t>(opened.field.rows);
-  SCARP_RETURN_IF_ERROR(check_raster_size(path, cols, rows, options));
+  SCARP_RETURN_IF_ERROR(io::check_raster_size(path, cols, rows, options));
   return read_samples(session, std::move(opened), options);
 }
 
@@ -222,15 +222,15 @@ Result<void> survey(Session& session, const OpenedRaster& opened, WindowReader& 
   const auto look = [&](const Window& window) {
     heights.resize(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
     if (!reader.read(window, heights.data(), window.cols)) return false;
-    range.add(range_of(heights));
+    range.add(grid::range_of(heights));
     return true;
   };
   const Extent extent{info.path, field.cols, field.rows};
   SCARP_RETURN_IF_ERROR(for_each_window(session, opened.first_band(options), extent, options.run.progress, look));
-  set_range(range, info);
+  grid::set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
   doubt_colours(reader.findings(), options.decode, find_loss(opened.unread.dataset.get()), info);
-  SCARP_RETURN_IF_ERROR(finish_info(field, reader.findings().infinities, options));
+  SCARP_RETURN_IF_ERROR(io::finish_info(field, reader.findings().infinities, options));
   return refuse_beyond(reader.findings(), info.path, options);
 }
 
@@ -264,13 +264,15 @@ Result<OwnedHeightField> open_field(const std::string& path, ReadOptions options
   std::uint64_t infinities = 0;
   SCARP_RETURN_IF_ERROR(read_codes(session, opened.unread.band, options, field, infinities));
   add_gdal_warnings(session, field.info);
-  SCARP_RETURN_IF_ERROR(finish_info(field, infinities, options));
+  SCARP_RETURN_IF_ERROR(io::finish_info(field, infinities, options));
   warn_of_depths(opened.unread, options, field.info);
   return std::move(field);
 }
 
 }  // namespace
-}  // namespace gdal
+}  // namespace scarp::gdal
+
+namespace scarp::io {
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options) {
   return gdal::read(path, options);
@@ -280,4 +282,4 @@ Result<OwnedHeightField> open_gdal_raster(const std::string& path, const ReadOpt
   return gdal::open_field(path, options);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

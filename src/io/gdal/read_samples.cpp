@@ -344,7 +344,7 @@ Result<void> read_codes(Session& session, const BandSense& sense, const ReadOpti
     here.lowest[0] = here.highest[0] = {z, counts[code]};
     range.add(here);
   }
-  set_range(range, field.info);
+  grid::set_range(range, field.info);
   field.sample_rounding = reader.findings().rounding;
   field.source = make_coded_source(std::move(codes), field.cols, std::move(heights));
   return {};

@@ -30,7 +30,7 @@ Crs find_crs_beside(const std::string& path) {
   return dataset ? copy_crs(GDALGetSpatialRef(dataset.get())) : nullptr;
 }
 
-Result<std::string> keep_as_geotiff(const PointGrid& grid, const std::string& unit, const std::string& warnings,
+Result<std::string> keep_as_geotiff(const io::PointGrid& grid, const std::string& unit, const std::string& warnings,
                                     const std::string& path) {
   const auto refuse = [&] { return fail(ErrorKind::kOutput, path + ": GDAL cannot make a GeoTIFF of its nodes"); };
   const MemoryFile file("tif");
@@ -53,7 +53,7 @@ Result<std::string> keep_as_geotiff(const PointGrid& grid, const std::string& un
         CE_None)
       return refuse();
   }
-  return spool_bytes(file.bytes());
+  return io::spool_bytes(file.bytes());
 }
 
 Result<std::string> make_text_grid(const std::string& name, const std::string& path) {
@@ -62,15 +62,15 @@ Result<std::string> make_text_grid(const std::string& name, const std::string& p
   ReadPointsOptions options;
   options.nodata = std::numeric_limits<double>::quiet_NaN();  // a node without a number is nodata
   options.heights_in = HeightsIn::kFile;
-  std::optional<PointGrid> grid;
+  std::optional<io::PointGrid> grid;
   std::string unit;
   {
-    const auto points = decode_columns(*bytes, path, options);
-    if (points) grid = find_grid(*points);
+    const auto points = io::decode_columns(*bytes, path, options);
+    if (points) grid = io::find_grid(*points);
     if (points) unit = points->heights.unit;
   }
   if (!grid) return std::string();
-  const auto columns = find_columns({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path, options);
+  const auto columns = io::find_columns({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path, options);
   return keep_as_geotiff(*grid, unit, columns ? fmt::format("{}", fmt::join(columns->warnings, "\n")) : "", path);
 }
 
@@ -78,10 +78,10 @@ Result<std::string> make_text_grid(const std::string& name, const std::string& p
 
 Result<std::string> find_text_grid(const std::string& path) {
   if (is_remote(path)) return std::string();
-  const auto name = readable_name(path);
+  const auto name = io::readable_name(path);
   VSIStatBufL status{};
   if (!name || VSIStatL(name->c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return std::string();
-  if (!is_text_of_columns(path) || !holds_plain_text(path) || begins_as_grid(path)) return std::string();
+  if (!io::is_text_of_columns(path) || !io::holds_plain_text(path) || io::begins_as_grid(path)) return std::string();
   struct Kept {
     std::pair<long long, long long> state;  // size and time
     std::string name;
@@ -98,7 +98,7 @@ Result<std::string> find_text_grid(const std::string& path) {
 
 }  // namespace scarp::gdal
 
-namespace scarp {
+namespace scarp::io {
 
 bool is_text_grid(const std::string& path) {
   const gdal::Session session;
@@ -106,4 +106,4 @@ bool is_text_grid(const std::string& path) {
   return name && !name->empty();
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -32,7 +32,7 @@ bool is_drawing(GDALDatasetH dataset) {
 }  // namespace
 
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected) {
-  SCARP_TRY(const auto& name, readable_name(path));
+  SCARP_TRY(const auto& name, io::readable_name(path));
   const std::string vsi = vsi_path(name);
   session.clear();
   session.set_option("DXF_INLINE_BLOCKS", "FALSE");  // a symbol is the point at which it was inserted
@@ -41,7 +41,7 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
     return fail(ErrorKind::kInput,
                 fmt::format("{}: XML that declares entities is not read, since they may grow without end: write the "
                             "file anew without them (xmllint --noent --dropdtd {} --output {})",
-                            path, file_word(path), new_file(std::filesystem::path(path).extension().string())));
+                            path, io::file_word(path), io::new_file(std::filesystem::path(path).extension().string())));
   }
   Dataset dataset(GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              kOpenOptions, nullptr));
@@ -50,10 +50,10 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
   if (path.empty()) return fail(ErrorKind::kInput, fmt::format("the name of the {} is empty", what));
   if (is_remote(path)) return refuse_remote(path, vsi, session.reason());
   VSIStatBufL status{};
-  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": " + describe_missing(path));
+  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": " + io::describe_missing(path));
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
-  const std::string kind = describe_kind(path, read_head(vsi), static_cast<std::uint64_t>(status.st_size));
-  for (const std::string& what : {kind, describe_marked_text(path, read_head(vsi))}) {
+  const std::string kind = io::describe_kind(path, read_head(vsi), static_cast<std::uint64_t>(status.st_size));
+  for (const std::string& what : {kind, io::describe_marked_text(path, read_head(vsi))}) {
     if (!what.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", path, what));
   }
   if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_VECTOR); driver)

@@ -39,7 +39,7 @@ Result<std::vector<int>> choose_bands(GDALDatasetH image, const std::string& pat
                   fmt::format("{}: band {} holds {}, and an image to drape has 8 bits: stretch it first "
                               "({})",
                               path, k, GDALGetDataTypeName(GDALGetRasterDataType(band)),
-                              translate_command("-ot Byte -scale", path)));
+                              io::translate_command("-ot Byte -scale", path)));
     }
     if (GDALGetRasterColorInterpretation(band) == GCI_AlphaBand) {
       alpha = k;

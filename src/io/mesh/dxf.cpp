@@ -15,7 +15,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/welder.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kDxfOrigin = "scarp.origin: ", kDxfKey = "scarp ", kDxfMore = "scarp+ ";
@@ -190,4 +190,4 @@ Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace scarp {
+namespace scarp::io {
 
 /// The number of type T at `at`, which need not be aligned.
 template <class T>
@@ -29,4 +29,4 @@ void store_number(std::uint8_t*& at, T value) {
   at += sizeof(T);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

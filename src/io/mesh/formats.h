@@ -13,7 +13,7 @@
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// REQUIRES: find_unwritable() is empty.
 using MeshWriter = Result<std::vector<std::uint8_t>>(const Mesh& mesh, const EncodeOptions& options);
@@ -35,4 +35,4 @@ const MeshFormatRow& row_of(MeshFormat format);
 /// The format by content; the name decides only if bytes are ambiguous, as in a truncated STL file.
 std::optional<MeshFormat> recognise_mesh(std::span<const std::uint8_t> bytes, const std::string& name);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/meshopt_codec.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 template <class T>
@@ -189,4 +189,4 @@ bool GlbArrays::decode_view(std::uint64_t index, const Json& packed, View& view)
   return true;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

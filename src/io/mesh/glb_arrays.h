@@ -13,7 +13,7 @@
 
 #include "io/mesh/glb_json.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// A checked accessor: `count` items of one or more components, `stride` bytes apart.
 struct GlbItems {
@@ -65,4 +65,4 @@ class GlbArrays {
   std::map<std::uint64_t, std::vector<std::uint8_t>> decoded_;  // by view
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

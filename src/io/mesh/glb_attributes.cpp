@@ -10,7 +10,7 @@
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/srgb.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kMostShort = 65535, kMostWhole = 1 << 24;
@@ -210,4 +210,4 @@ std::vector<GlbAttribute> list_glb_attributes(const Mesh& mesh, const GlbGrid& g
   return list;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -12,7 +12,7 @@
 #include "scarp/io.h"
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::io {
 
 struct GlbAttribute {
   std::string name;
@@ -51,4 +51,4 @@ inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
 /// POSITION is first. The mesh, the grid and the options must outlive the result.
 std::vector<GlbAttribute> list_glb_attributes(const Mesh& mesh, const GlbGrid& grid, const GlbOptions& options);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -12,7 +12,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_numbers.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x46546C67;
@@ -90,4 +90,4 @@ Result<std::vector<std::uint8_t>> GlbBuilder::assemble(int threads) {
   return bytes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include "io/mesh/glb_json.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;
 constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
@@ -47,4 +47,4 @@ class GlbBuilder {
   Json accessors_ = Json::array(), views_ = Json::array();
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

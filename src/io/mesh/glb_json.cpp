@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::size_t kMostDepth = 100, kMostMembers = 10000;
@@ -69,4 +69,4 @@ std::map<std::string, std::string> extras_to_metadata(const Json& extras) {
   return metadata;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

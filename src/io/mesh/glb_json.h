@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Preserves the order of keys, so that stored reports do not change.
 using Json = nlohmann::ordered_json;
@@ -24,4 +24,4 @@ std::map<std::string, std::string> extras_to_metadata(const Json& extras);
 /// Compact text; bytes that are not UTF-8 become U+FFFD.
 std::string print_json(const Json& json);
 
-}  // namespace scarp
+}  // namespace scarp::io

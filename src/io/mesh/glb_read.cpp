@@ -18,7 +18,7 @@
 #include "io/mesh/srgb.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 class GlbReader : public GlbArrays {
@@ -397,4 +397,4 @@ Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

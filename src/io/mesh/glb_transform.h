@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Columns of a 3×3 matrix and a translation, in glTF's axes.
 struct Transform {
@@ -57,4 +57,4 @@ inline Transform operator*(const Transform& outer, const Transform& inner) {
   return product;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

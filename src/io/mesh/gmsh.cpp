@@ -24,7 +24,7 @@
 #include "io/mesh/text_comments.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 enum GmshElement : std::int64_t { kGmshLine = 1, kGmshTriangle = 2, kGmshQuadrangle = 3, kGmshPoint = 15 };
@@ -397,4 +397,4 @@ Result<Mesh> decode_msh(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -37,7 +37,7 @@ std::optional<std::string> find_grid_difference(const RasterInfo& raster, int co
     return fmt::format("is {} x {} samples instead of {} x {}", other_cols, other_rows, cols, rows);
   }
   if (!raster.has_georeference || !other.has_georeference) return {};
-  if (!raster.crs.empty() && !other.crs.empty() && !is_same_crs(raster.crs, other.crs)) {
+  if (!raster.crs.empty() && !other.crs.empty() && !io::is_same_crs(raster.crs, other.crs)) {
     const std::string wanted = short_name(raster.crs), found = short_name(other.crs);
     return found == wanted ? fmt::format("is in another CRS that is also called {}", found)
                            : fmt::format("is in {} instead of {}", found, wanted);

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Maps the numbers of vertices to their indices. Consecutive numbers, the usual case, cost 8 bytes each and are found
 /// directly. Other numbers are sorted by finish().
@@ -52,4 +52,4 @@ class IdTable {
   bool is_row_ = true;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -18,7 +18,7 @@
 #include "io/raster/height_unit.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kOriginLabel = "scarp.origin", kFeature = "scarp";
@@ -279,4 +279,4 @@ Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

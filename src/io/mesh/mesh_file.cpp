@@ -56,7 +56,7 @@ char find_up(const MeshFormatTraits& traits, std::span<const std::uint8_t> bytes
   if (mesh.metadata.contains("up")) return is_y_up(mesh) ? 'y' : 'z';
   const auto generator = mesh.metadata.find("generator");
   const bool is_own = generator != mesh.metadata.end() && generator->second.starts_with("Scarp");
-  return is_own || (traits.format == MeshFormat::kStl && begins_with(bytes, "scarp ")) ? 'z' : '\0';
+  return is_own || (traits.format == MeshFormat::kStl && io::begins_with(bytes, "scarp ")) ? 'z' : '\0';
 }
 
 /// "GLB, OBJ or PLY" for readable formats, or ".glb, .obj or .ply" for all formats.
@@ -97,7 +97,7 @@ std::string find_unwritable_zones(const Mesh& mesh, const MeshZones* zones, cons
 
 }  // namespace
 
-std::string find_unwritable(const Mesh& mesh, bool as_float) {
+std::string io::find_unwritable(const Mesh& mesh, bool as_float) {
   const std::size_t count = mesh.vertex_count();
   if (mesh.triangles.empty()) return "the mesh has no triangles";
   if (mesh.positions.size() % 3 != 0 || mesh.triangles.size() % 3 != 0 ||
@@ -135,7 +135,7 @@ std::string find_unwritable(const Mesh& mesh, bool as_float) {
   return {};
 }
 
-void drop_partial_attributes(Mesh& mesh) {
+void io::drop_partial_attributes(Mesh& mesh) {
   const std::size_t count = mesh.vertex_count();
   if (mesh.normals.size() != 3 * count) mesh.normals.clear();
   if (mesh.uvs.size() != 2 * count) mesh.uvs.clear();
@@ -146,7 +146,7 @@ void drop_partial_attributes(Mesh& mesh) {
   }
 }
 
-std::string find_unreadable(const Mesh& mesh) {
+std::string io::find_unreadable(const Mesh& mesh) {
   const std::size_t count = mesh.vertex_count();
   if (count > std::numeric_limits<std::uint32_t>::max()) return "it has more vertices than 32 bits can number";
   if (mesh.triangles.empty()) return "it holds no triangles";
@@ -164,31 +164,31 @@ std::string find_unreadable(const Mesh& mesh) {
   return {};
 }
 
-std::string metadata_line(const std::string& key, const std::string& value) {
+std::string io::metadata_line(const std::string& key, const std::string& value) {
   return escape(key, true, false) + ": " + escape(value, false, false);
 }
 
-std::string ascii_metadata_line(const std::string& key, const std::string& value) {
+std::string io::ascii_metadata_line(const std::string& key, const std::string& value) {
   return escape(key, true, true) + ": " + escape(value, false, true);
 }
 
-std::string ascii_text(const std::string& text) { return escape(text, false, true); }
+std::string io::ascii_text(const std::string& text) { return escape(text, false, true); }
 
-std::string undo_ascii_text(std::string_view text) { return unescape(text); }
+std::string io::undo_ascii_text(std::string_view text) { return unescape(text); }
 
-bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata) {
+bool io::parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata) {
   const std::size_t separator = line.find(": ");
   if (separator == std::string_view::npos || separator == 0) return false;
   metadata[unescape(line.substr(0, separator))] = unescape(line.substr(separator + 2));
   return true;
 }
 
-std::string origin_text(const std::array<double, 3>& origin) {
+std::string io::origin_text(const std::array<double, 3>& origin) {
   return fmt::format("{} {} {}", origin[0], origin[1], origin[2]);
 }
 
-std::optional<std::array<double, 3>> parse_origin(std::string_view text) {
-  TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+std::optional<std::array<double, 3>> io::parse_origin(std::string_view text) {
+  io::TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   std::array<double, 3> origin{};
   for (double& coordinate : origin) {
     if (!cursor.number(coordinate) || !std::isfinite(coordinate)) return {};
@@ -196,9 +196,11 @@ std::optional<std::array<double, 3>> parse_origin(std::string_view text) {
   return origin;
 }
 
-const char* axes_text(const Mesh& mesh) { return is_y_up(mesh) ? "x east, y up, z south" : "x east, y north, z up"; }
+const char* io::axes_text(const Mesh& mesh) {
+  return is_y_up(mesh) ? "x east, y up, z south" : "x east, y north, z up";
+}
 
-void set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
+void io::set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const double base = origin[i % 3], absolute = mesh.positions[i];
     if (base + (absolute - base) != absolute) return;
@@ -207,7 +209,7 @@ void set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
   mesh.origin = origin;
 }
 
-std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles) {
+std::string io::append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles) {
   constexpr std::size_t kMostCorners = 16'384;
   if (corners.size() > kMostCorners)
     return fmt::format("a polygon has {} corners, more than {}: cut it into triangles first", corners.size(),
@@ -219,11 +221,11 @@ std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::
 }
 
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, const EncodeOptions& options) {
-  const MeshFormatRow& row = row_of(format);
+  const io::MeshFormatRow& row = io::row_of(format);
   if (is_y_up(mesh) && !row.traits.has_choice_of_up) {
     return fail(ErrorKind::kOutput, "the mesh is y up, which OBJ, PLY and STL may be; undo_y_up() turns it back");
   }
-  if (std::string why = find_unwritable(mesh, row.traits.is_float32); !why.empty()) {
+  if (std::string why = io::find_unwritable(mesh, row.traits.is_float32); !why.empty()) {
     return fail(ErrorKind::kOutput, std::move(why));
   }
   if (std::string why = find_unwritable_zones(mesh, options.zones, row.traits); !why.empty()) {
@@ -244,19 +246,19 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
     return fail(ErrorKind::kInput, fmt::format("{} is not a usable mesh: {}", name_for_errors, why));
   };
   if (bytes.empty()) return unusable("the file is empty");
-  const auto format = recognise_mesh(bytes, name_for_errors);
+  const auto format = io::recognise_mesh(bytes, name_for_errors);
   if (!format) return unusable(fmt::format("it is none of {}", list_formats(false)));
-  const MeshFormatRow& row = row_of(*format);
+  const io::MeshFormatRow& row = io::row_of(*format);
   if (row.read == nullptr)
     return unusable(fmt::format("it is a {}, which Scarp writes and does not read", row.traits.title));
   try {
     Result<Mesh> mesh = row.read(bytes);
     if (!mesh) return unusable(mesh.error().message);
-    drop_partial_attributes(*mesh);
+    io::drop_partial_attributes(*mesh);
     if (!row.traits.has_choice_of_up) mesh->metadata.erase("up");
     if (axes != nullptr) *axes = {find_up(row.traits, bytes, *mesh), row.traits.is_float32};
     undo_y_up(*mesh);
-    if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
+    if (const std::string why = io::find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
   } catch (...) {
     return caught(ErrorKind::kInput, "decode " + name_for_errors);
@@ -276,7 +278,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
 }
 
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes) {
-  if (const Mesh* lent = find_lent_mesh(path)) return *lent;
+  if (const Mesh* lent = io::find_lent_mesh(path)) return *lent;
   SCARP_TRY(auto&& bytes, read_file(path));
   return decode_mesh(bytes, path, axes);
 }

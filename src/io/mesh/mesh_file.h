@@ -12,7 +12,7 @@
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// The error message for a mesh that no format can store: no triangles, arrays whose sizes disagree, an index out of
 /// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if valid.
@@ -57,4 +57,4 @@ bool is_binary_stl(std::span<const std::uint8_t> bytes);
 /// True for text that begins like a DXF file: with a comment or a section.
 bool is_dxf(std::span<const std::uint8_t> bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <string>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 bool is_text_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -117,4 +117,4 @@ std::string_view TextCursor::rest_of_line() {
   return rest;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Parses the whole word as a number, correctly rounded and independent of the locale, including "nan" and "inf".
 /// Returns false for other words.
@@ -48,4 +48,4 @@ class TextCursor {
   std::size_t line_ = 1;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::size_t kMostVertices = 65535;
@@ -215,4 +215,4 @@ std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads) {
   return {std::move(whole)};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

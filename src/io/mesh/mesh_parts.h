@@ -6,7 +6,7 @@
 
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Some of the triangles, with their vertices.
 struct MeshPart {
@@ -19,4 +19,4 @@ struct MeshPart {
 /// Parts are made by recursive halving along x or y. Cost: O(triangles · log parts).
 std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads);
 
-}  // namespace scarp
+}  // namespace scarp::io

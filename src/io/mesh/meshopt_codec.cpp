@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace scarp {
+namespace scarp::io {
 
 #ifdef SCARP_WITH_MESHOPTIMIZER
 
@@ -100,4 +100,4 @@ const char* decode_meshopt(const MeshoptStream&, std::vector<std::uint8_t>&) {
 
 #endif
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 #ifdef SCARP_WITH_MESHOPTIMIZER
 inline constexpr bool kHasMeshoptCodec = true;
@@ -39,4 +39,4 @@ std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t
 /// Allocates no more than their bytes can encode.
 const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items);
 
-}  // namespace scarp
+}  // namespace scarp::io

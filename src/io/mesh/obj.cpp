@@ -14,7 +14,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/text_comments.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 struct ObjReader {
@@ -179,4 +179,4 @@ Result<Mesh> decode_obj(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -19,7 +19,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kPlyOrigin = "scarp.origin: ", kPlyKey = "scarp ", kCrs = "crs ";
@@ -385,4 +385,4 @@ Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -6,7 +6,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
@@ -64,4 +64,4 @@ std::optional<MeshFormat> recognise_mesh(std::span<const std::uint8_t> bytes, co
   return recognise_lines(bytes);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -17,7 +17,7 @@
 #include "io/mesh/text_comments.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 struct Sms2dmReader {
@@ -135,4 +135,4 @@ Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

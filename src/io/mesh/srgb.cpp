@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// x^2.4 = x² · (x^⅕)² by Newton's method, using only operations that IEEE 754 rounds identically everywhere.
@@ -38,4 +38,4 @@ std::uint8_t srgb_of_linear(double linear) {
   return static_cast<std::uint8_t>(std::upper_bound(kEnds.begin(), kEnds.end(), linear) - kEnds.begin());
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

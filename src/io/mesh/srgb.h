@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Linear light (0 … 1) of each sRGB byte (IEC 61966-2-1), the same on every machine.
 extern const std::array<float, 256> kLinearOfSrgb;
@@ -13,4 +13,4 @@ extern const std::array<float, 256> kLinearOfSrgb;
 /// 255.
 std::uint8_t srgb_of_linear(double linear);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -17,7 +17,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/welder.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::size_t kHeaderSize = 80, kTriangleSize = 50;
@@ -219,4 +219,4 @@ Result<Mesh> decode_stl(std::span<const std::uint8_t> bytes) {
   return !is_binary_stl(bytes) && start == "solid" ? decode_text(bytes) : decode_binary(bytes);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -16,7 +16,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::io {
 
 struct TextComments {
   std::optional<std::array<double, 3>> origin;
@@ -55,4 +55,4 @@ struct TextComments {
   static void write_end(std::vector<std::uint8_t>& bytes) { fmt::format_to(std::back_inserter(bytes), "# {}\n", kEnd); }
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -10,7 +10,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/welder.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Result<std::vector<std::uint8_t>> encode_tin(const Mesh& mesh) {
   std::vector<std::uint8_t> bytes;
@@ -52,4 +52,4 @@ Result<Mesh> decode_tin(std::span<const std::uint8_t> bytes) {
   return mesh;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -11,7 +11,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/mesh_file.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::uint8_t kTriangleCell = 5;  // VTK's number of this cell type
@@ -160,4 +160,4 @@ Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh) { return encode(m
 
 Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh) { return encode(mesh, true); }
 
-}  // namespace scarp
+}  // namespace scarp::io

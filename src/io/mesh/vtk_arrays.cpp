@@ -9,7 +9,7 @@
 #include "io/base64.h"
 #include "io/mesh/mesh_file_text.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 struct VtkTypeName {
@@ -149,4 +149,4 @@ Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array) {
   return numbers;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

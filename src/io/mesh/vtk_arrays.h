@@ -12,7 +12,7 @@
 #include "io/mesh/file_bytes.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
 
@@ -63,4 +63,4 @@ class VtkNumbers {
 /// result.
 Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -18,7 +18,7 @@
 #include "io/mesh/xml_reader.h"
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// A Piece element. Keys of arrays are "Section/Name", such as "Polys/offsets"; the key of the points' only array is
@@ -309,4 +309,4 @@ Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes) {
   return std::move(reader.mesh);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

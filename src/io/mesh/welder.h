@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Gives equal points equal ids, in order of first appearance. A hash table with open addressing, at most half full.
 class Welder {
@@ -44,4 +44,4 @@ class Welder {
   std::vector<std::uint32_t> slots_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

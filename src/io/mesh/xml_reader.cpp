@@ -6,7 +6,7 @@
 
 #include "io/mesh/mesh_file_text.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 bool is_xml_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -234,4 +234,4 @@ XmlReader::Event XmlReader::next() {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

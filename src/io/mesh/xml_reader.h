@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 /// Reads XML in UTF-8 or ASCII and checks that elements are closed in order, down to the root. Document types are
 /// rejected, so the only entities are XML's own five and numeric ones. Names are returned without their prefix.
@@ -86,4 +86,4 @@ std::string undo_entities(std::string_view text);
 /// Escapes text for an attribute in double quotes or an element.
 std::string with_entities(std::string_view text);
 
-}  // namespace scarp
+}  // namespace scarp::io

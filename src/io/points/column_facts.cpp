@@ -7,7 +7,7 @@
 
 #include "io/points/text_lines.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// A northing of middle latitudes, in metres from the equator.
@@ -159,4 +159,4 @@ bool are_split_at_commas(const Rows& rows) {
   return lead_with_zero || fit.is_east_first || fit.is_north_first;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

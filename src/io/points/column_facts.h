@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 inline constexpr std::size_t kMostColumns = 16;
 
@@ -60,4 +60,4 @@ std::optional<std::size_t> find_later_pair(const Rows& rows, const std::vector<s
 /// True if each number was split into two columns at its decimal comma.
 bool are_split_at_commas(const Rows& rows);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/raster/height_unit.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using Words = std::span<const std::string_view>;
@@ -217,4 +217,4 @@ Result<std::array<std::size_t, 3>> parse_columns(const std::string& given, std::
   return std::array<std::size_t, 3>{*at[0], *at[1], *at[2]};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -8,7 +8,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 enum class ColumnRole { kX, kY, kHeight, kNumber, kCode, kSkipped };
 
@@ -37,4 +37,4 @@ bool names_degrees(std::string_view name);
 /// for another word, and if x, y or height is missing or repeated.
 Result<std::array<std::size_t, 3>> parse_columns(const std::string& given, std::string& words);
 
-}  // namespace scarp
+}  // namespace scarp::io

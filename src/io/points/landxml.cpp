@@ -8,7 +8,7 @@
 #include "io/mesh/mesh_file_text.h"
 #include "io/raster/crs_description.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 HeightUnit unit_of(const std::string& linear_unit) {
@@ -64,4 +64,4 @@ std::string read_numbers(const std::string& text, std::vector<double>& numbers) 
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

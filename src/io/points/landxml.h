@@ -11,7 +11,7 @@
 #include "scarp/lines.h"
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// The unit and the CRS of a file.
 struct LandXmlHead {
@@ -62,4 +62,4 @@ Result<LandXmlBoundaries> read_landxml_boundaries(std::span<const std::uint8_t> 
 /// True for a LandXML file, by its first bytes.
 bool is_landxml(const std::string& path);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -13,7 +13,7 @@
 
 #include "io/points/landxml.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using BoundaryPlace = std::array<double, 2>;           // easting, northing
@@ -195,4 +195,4 @@ Result<LandXmlBoundaries> read_landxml_boundaries(std::span<const std::uint8_t> 
   return found;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -24,7 +24,7 @@
 #include "scarp/io.h"
 #include "scarp/points.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr const char* kSurveyPoints = "CgPoints";
@@ -263,4 +263,4 @@ Result<PointSet> read_landxml_points(std::span<const std::uint8_t> bytes, const 
   return points;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -26,7 +26,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// An open file that any thread may read at any offset.
@@ -205,4 +205,4 @@ Result<PointSet> read_las_points(const std::string& path, const ReadPointsOption
   return std::move(points);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

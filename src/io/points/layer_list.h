@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 /// The names in `wanted`: all of it if it is a layer's name, even with commas; else the parts between commas.
 template <class Exists>
@@ -20,4 +20,4 @@ std::vector<std::string> layer_list(const std::string& wanted, Exists&& exists) 
   return names;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

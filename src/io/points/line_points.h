@@ -7,7 +7,7 @@
 
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Builds a line of points as they are added to a set, without repetitions. A ring ends with its first point.
 class LinePoints {
@@ -46,4 +46,4 @@ class LinePoints {
   PointLine line_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -17,7 +17,7 @@
 #include "io/points/column_names.h"
 #include "io/points/text_lines.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::size_t kMostRows = 1 << 16;
@@ -317,4 +317,4 @@ Result<PointColumns> find_columns(std::string_view text, const std::string& name
   return columns;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

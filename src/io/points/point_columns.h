@@ -8,7 +8,7 @@
 
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 struct PointColumns {
   char separator = ',';
@@ -35,4 +35,4 @@ bool is_header(std::string_view line, char separator);
 /// northing and easting cannot be distinguished. REQUIRES: a line other than comments.
 Result<PointColumns> find_columns(std::string_view text, const std::string& name, const ReadPointsOptions& options);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kMostOffNode = 0.02;  // share of a step
@@ -83,4 +83,4 @@ std::optional<PointGrid> find_grid(const PointSet& points) {
   return grid;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

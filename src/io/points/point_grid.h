@@ -6,7 +6,7 @@
 
 #include "scarp/height_field.h"
 
-namespace scarp {
+namespace scarp::io {
 
 struct PointGrid {
   int cols = 0, rows = 0;
@@ -20,4 +20,4 @@ struct PointGrid {
 /// rule. Cost: two sorts.
 std::optional<PointGrid> find_grid(const PointSet& points);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -11,7 +11,7 @@
 #include "io/commands.h"
 #include "io/points/point_source.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 double middle_of_axis(const std::vector<double>& values) {
@@ -28,7 +28,7 @@ Result<void> leave_out_nodata(double nodata, PointSet& points) {
     return fail(ErrorKind::kUsage,
                 points.path + ": nodata cannot be combined with lines: leave their points out first");
   const std::size_t given = points.size();
-  keep_points(points, [&](std::size_t i) { return std::isfinite(points.z[i]) && points.z[i] != nodata; });
+  grid::keep_points(points, [&](std::size_t i) { return std::isfinite(points.z[i]) && points.z[i] != nodata; });
   points.without_height = given - points.size();
   if (points.size() > 0) return {};
   return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
@@ -47,7 +47,7 @@ Result<void> crop(const ReadPointsOptions& options, PointSet& points) {
                 points.path + ": --te cannot be combined with lines: cut them to a boundary instead");
   const std::array<double, 4>& box = *options.extent;
   const std::size_t given = points.size();
-  keep_points(points, [&](std::size_t i) {
+  grid::keep_points(points, [&](std::size_t i) {
     return points.x[i] >= box[0] && points.x[i] <= box[2] && points.y[i] >= box[1] && points.y[i] <= box[3];
   });
   points.outside = given - points.size();
@@ -119,4 +119,4 @@ Result<void> settle_point_heights(const ReadPointsOptions& options, const Height
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

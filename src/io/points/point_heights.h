@@ -8,7 +8,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// True if x and y become metres around their middle because of ReadPointsOptions::default_frame, without a request by
 /// `crs`.
@@ -39,4 +39,4 @@ Result<void> place_without_crs(const ReadPointsOptions& options, PointSet& point
 /// is set here. `vertical`: the unit of the vertical CRS. REQUIRES: x and y are in their frame.
 Result<void> settle_point_heights(const ReadPointsOptions& options, const HeightUnit& vertical, PointSet& points);
 
-}  // namespace scarp
+}  // namespace scarp::io

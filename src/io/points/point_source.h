@@ -8,7 +8,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// True if the bytes may be text in columns that begins with numbers.
 bool looks_like_columns(std::span<const std::uint8_t> head);
@@ -51,4 +51,4 @@ bool opens_as_raster(const std::string& path);
 /// True if the path is text in columns whose points are a raster's nodes. False in a build without GDAL.
 bool is_text_grid(const std::string& path);
 
-}  // namespace scarp
+}  // namespace scarp::io

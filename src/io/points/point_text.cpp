@@ -21,7 +21,7 @@
 #include "io/points/text_lines.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// The first of several blank-separated fields that is a number with a decimal comma; empty if there is none.
@@ -203,4 +203,4 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
   return points;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -35,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The extension with its dot, in lower case.
-std::string extension_of(const std::string& path) { return lowered(fs::path(path).extension().string()); }
+std::string extension_of(const std::string& path) { return io::lowered(fs::path(path).extension().string()); }
 
 template <std::size_t N>
 bool is_one_of(const std::string& extension, const std::array<std::string_view, N>& list) {
@@ -43,7 +43,7 @@ bool is_one_of(const std::string& extension, const std::array<std::string_view, 
 }
 
 std::vector<std::uint8_t> read_head(const std::string& path) {
-  const auto name = readable_name(path);
+  const auto name = io::readable_name(path);
   std::ifstream file(name ? *name : path, std::ios::binary);
   std::array<char, 4096> bytes{};
   file.read(bytes.data(), bytes.size());
@@ -59,22 +59,22 @@ bool is_plain_text(std::span<const std::uint8_t> head) {
 
 }  // namespace
 
-bool is_text_of_columns(const std::string& path) {
+bool io::is_text_of_columns(const std::string& path) {
   std::error_code ignored;
-  const auto name = readable_name(path);
+  const auto name = io::readable_name(path);
   const fs::file_status status = fs::status(name ? *name : path, ignored);
   if (!fs::exists(status) || fs::is_directory(status)) return false;
   if (!fs::is_regular_file(status)) return true;  // a device cannot be read twice
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
-  if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
+  if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && io::looks_like_columns(head))) return true;
   const bool is_copy = name && *name != path;  // copy of a pipe; the pipe's name shows nothing
   return is_copy && is_plain_text(head);
 }
 
-bool holds_plain_text(const std::string& path) { return is_plain_text(read_head(path)); }
+bool io::holds_plain_text(const std::string& path) { return is_plain_text(read_head(path)); }
 
-bool begins_as_grid(const std::string& path) {
+bool io::begins_as_grid(const std::string& path) {
   std::string word;
   for (const std::uint8_t c : read_head(path)) {
     if (std::isspace(c) != 0 && word.empty()) continue;
@@ -95,7 +95,7 @@ bool begins_landxml(std::span<const std::uint8_t> head) {
 std::optional<MeshFormat> find_drawing(const std::string& path) {
   const std::vector<std::uint8_t> head = read_head(path);
   if (begins_landxml(head)) return MeshFormat::kLandXml;
-  const auto format = recognise_mesh(head, path);
+  const auto format = io::recognise_mesh(head, path);
   return format == MeshFormat::kLandXml || format == MeshFormat::kDxf ? format : std::nullopt;
 }
 
@@ -109,9 +109,9 @@ bool has_triangles(const std::string& path) {
 
 }  // namespace
 
-bool is_landxml(const std::string& path) { return begins_landxml(read_head(path)); }
+bool io::is_landxml(const std::string& path) { return begins_landxml(read_head(path)); }
 
-std::string projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
+std::string io::projection_path(const std::string& path) { return fs::path(path).replace_extension(".prj").string(); }
 
 namespace {
 
@@ -123,7 +123,7 @@ std::vector<std::string> las_files_in(const std::string& path) {
     const std::string name = entry.path().string(), extension = extension_of(name);
     (extension == ".las" || extension == ".laz" ? files : others).push_back(name);
   }
-  if (!files.empty() && std::any_of(others.begin(), others.end(), opens_as_raster)) return {};
+  if (!files.empty() && std::any_of(others.begin(), others.end(), io::opens_as_raster)) return {};
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -136,8 +136,8 @@ bool is_point_file(const std::string& path) {
   const std::string extension = extension_of(path);
   constexpr std::array<std::string_view, 3> kDrawings{".dxf", ".xml", ".landxml"};
   constexpr std::array<std::string_view, 3> kText{".csv", ".tsv", ".xyz"}, kEither{".txt", ".dat", ".gpkg"};
-  if (is_one_of(extension, kText)) return !is_text_grid(path);
-  if (is_one_of(extension, kEither)) return !begins_as_grid(path) && !opens_as_raster(path);
+  if (is_one_of(extension, kText)) return !io::is_text_grid(path);
+  if (is_one_of(extension, kEither)) return !io::begins_as_grid(path) && !io::opens_as_raster(path);
   if (!las_files_in(path).empty()) return true;
   if (is_one_of(extension, kDrawings)) return find_drawing(path) && !has_triangles(path);
   return is_one_of(extension, kPoints);
@@ -155,16 +155,16 @@ bool is_las(const std::string& path) {
 
 }  // namespace
 
-Result<std::string> read_declared_crs(const std::string& path) {
+Result<std::string> io::read_declared_crs(const std::string& path) {
   std::error_code ignored;
-  std::string file = projection_path(path);
+  std::string file = io::projection_path(path);
   if (!fs::exists(file, ignored)) file = fs::path(path).replace_extension(".PRJ").string();
   if (!fs::is_regular_file(path, ignored) || !fs::is_regular_file(file, ignored)) return std::string();
   SCARP_TRY(const auto& bytes, read_file(file));
   std::string text(bytes.begin(), bytes.end());
   text.erase(0, text.find_first_not_of(" \t\r\n"));
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
-  if (text.empty() || (can_describe_crs() && !describe_crs(text)))
+  if (text.empty() || (io::can_describe_crs() && !io::describe_crs(text)))
     return fail(ErrorKind::kInput,
                 file + ": declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633");
   return text;
@@ -173,19 +173,20 @@ Result<std::string> read_declared_crs(const std::string& path) {
 namespace {
 
 Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
-  if (is_las(path)) return read_las_points(path, options);
+  if (is_las(path)) return io::read_las_points(path, options);
   if (options.choice != PointChoice())
     return fail(ErrorKind::kUsage,
                 path + ": classes and returns of points are those of LAS and LAZ files, and this is none: omit them");
   const auto drawing = find_drawing(path);
-  if (drawing == MeshFormat::kDxf || (!drawing && !is_text_of_columns(path))) return read_gdal_points(path, options);
-  SCARP_TRY(const std::string& crs, read_declared_crs(path));
+  if (drawing == MeshFormat::kDxf || (!drawing && !io::is_text_of_columns(path)))
+    return io::read_gdal_points(path, options);
+  SCARP_TRY(const std::string& crs, io::read_declared_crs(path));
   SCARP_TRY(const auto& bytes, read_file(path));
-  if (drawing) return read_landxml_points(bytes, path, options, crs);
+  if (drawing) return io::read_landxml_points(bytes, path, options, crs);
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4096));
-  if (const std::string kind = describe_kind(path, head, bytes.size(), false); !kind.empty())
+  if (const std::string kind = io::describe_kind(path, head, bytes.size(), false); !kind.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: {}", path, kind));
-  return decode_columns(bytes, path, options, crs);
+  return io::decode_columns(bytes, path, options, crs);
 }
 
 Result<PointSet> read_files(const std::string& path, const ReadPointsOptions& options) {
@@ -208,7 +209,7 @@ void warn_of_missing_heights(PointSet& points) {
   std::copy_if(points.z.begin(), points.z.end(), std::back_inserter(heights),
                [](double z) { return std::abs(z) <= std::numeric_limits<float>::max(); });
   for (const UndeclaredNodata& missing :
-       find_undeclared_nodata(range_of(heights), points.heights.z_scale, points.heights.z_offset)) {
+       find_undeclared_nodata(grid::range_of(heights), points.heights.z_scale, points.heights.z_offset)) {
     const bool is_one = missing.of.samples == 1;
     points.warnings.push_back(fmt::format(
         "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if {} none, --nodata {} leaves {} out",
@@ -254,8 +255,8 @@ void warn_of_far_points(PointSet& points) {
 }  // namespace
 
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
-  const PointSet* const lent = find_lent_points(path);
-  auto points = lent != nullptr ? read_lent_points(*lent, path, options) : read_files(path, options);
+  const PointSet* const lent = io::find_lent_points(path);
+  auto points = lent != nullptr ? io::read_lent_points(*lent, path, options) : read_files(path, options);
   if (points) warn_of_missing_heights(*points);
   if (points) warn_of_far_points(*points);
   return points;

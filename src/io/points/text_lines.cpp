@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 bool is_blank_in_line(char c) { return c == ' ' || c == '\t'; }
@@ -96,4 +96,4 @@ std::optional<double> parse_field(std::string_view text, bool has_decimal_comma)
   return value;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace scarp {
+namespace scarp::io {
 
 /// The text without blanks and tabs at its ends.
 std::string_view trim_field(std::string_view text);
@@ -34,4 +34,4 @@ std::optional<std::string_view> take_field(std::string_view& line, char separato
 /// text is no number. `has_decimal_comma`: the decimal point is a comma.
 std::optional<double> parse_field(std::string_view text, bool has_decimal_comma);
 
-}  // namespace scarp
+}  // namespace scarp::io

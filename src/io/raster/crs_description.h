@@ -8,7 +8,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 struct CrsDescription {
   std::string name;            ///< "WGS 84 / UTM zone 11N"
@@ -32,6 +32,6 @@ struct GeoKeys {
 /// WKT of a CRS that keys describe by its parameters; empty if GDAL cannot convert them, and in a build without GDAL.
 std::string describe_geo_keys(const GeoKeys& keys);
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

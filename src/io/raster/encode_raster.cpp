@@ -56,7 +56,7 @@ Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, Raste
     return fail(ErrorKind::kOutput, fmt::format("a raster of {} x {} samples cannot be made of {} values", raster.cols,
                                                 raster.rows, raster.samples.size()));
   }
-  return format == RasterFormat::kPgm ? encode_pgm(raster) : encode_geotiff(raster);
+  return format == RasterFormat::kPgm ? encode_pgm(raster) : io::encode_geotiff(raster);
 } catch (...) {
   return caught(ErrorKind::kOutput, "encode the raster");
 }

@@ -9,7 +9,7 @@
 
 #include "io/commands.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937;
@@ -175,4 +175,4 @@ double metres_in_file(const RasterInfo& info) {
   return is_length ? factor : info.unit_in_metres;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -8,7 +8,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::io {
 
 struct HeightUnit {
   std::string name;   ///< empty: unknown
@@ -31,6 +31,6 @@ void warn_of_units(const Frame& frame, RasterInfo& info);
 /// Metres per unit of a raster file's values, before z_scale; 0 for an unknown unit.
 double metres_in_file(const RasterInfo& info);
 
-}  // namespace scarp
+}  // namespace scarp::io
 
 #pragma GCC visibility pop

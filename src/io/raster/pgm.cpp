@@ -10,7 +10,7 @@
 #include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr int kEndOfText = -1;
@@ -195,4 +195,4 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   return field;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

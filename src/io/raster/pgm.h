@@ -7,7 +7,7 @@
 
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// True if the bytes begin like a PGM.
 bool is_pgm(std::span<const std::uint8_t> bytes);
@@ -20,4 +20,4 @@ bool is_pgm(std::span<const std::uint8_t> bytes);
 Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 
-}  // namespace scarp
+}  // namespace scarp::io

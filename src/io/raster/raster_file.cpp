@@ -23,11 +23,11 @@ RasterFile::~RasterFile() = default;
 
 Result<RasterFile> RasterFile::create(const std::string& path, int cols, int rows, const RasterInfo* like,
                                       bool overwrite) try {
-  SCARP_TRY(auto&& staged, StagedFile::begin(path, overwrite, true));
-  auto tiff = create_geotiff(staged.name(), cols, rows, like);
+  SCARP_TRY(auto&& staged, io::StagedFile::begin(path, overwrite, true));
+  auto tiff = io::create_geotiff(staged.name(), cols, rows, like);
   if (!tiff) return name_path(path, tiff.error());
   auto impl = std::make_unique<Impl>(Impl{std::move(staged), std::move(*tiff), cols, rows});
-  impl->held.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(std::min(rows, kRowsOfBlock)));
+  impl->held.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(std::min(rows, io::kRowsOfBlock)));
   return RasterFile(std::move(impl));
 } catch (...) {
   return caught(ErrorKind::kOutput, "write " + path);
@@ -37,7 +37,7 @@ Result<void> RasterFile::add(std::span<const float> row) try {
   Impl& at = *impl_;
   at.held.insert(at.held.end(), row.begin(), row.end());
   const int count = static_cast<int>(at.held.size() / static_cast<std::size_t>(at.cols));
-  if (count < kRowsOfBlock && at.written + count < at.rows) return {};
+  if (count < io::kRowsOfBlock && at.written + count < at.rows) return {};
   if (auto written = at.tiff->write(at.written, count, at.held.data()); !written)
     return name_path(at.staged.path(), written.error());
   at.written += count;
@@ -58,7 +58,8 @@ std::uint64_t RasterFile::size() const { return impl_->size; }
 
 std::uint64_t RasterFile::bytes(int cols) {
   constexpr std::uint64_t kBytesToEncode = 2'000'000;  // a block, its copies and the compressor
-  return kBytesToEncode + sizeof(float) * static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(kRowsOfBlock);
+  return kBytesToEncode +
+         sizeof(float) * static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(io::kRowsOfBlock);
 }
 
 }  // namespace scarp

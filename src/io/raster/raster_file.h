@@ -12,8 +12,8 @@
 namespace scarp {
 
 struct RasterFile::Impl {
-  StagedFile staged;
-  std::unique_ptr<GeoTiff> tiff;  // destroyed before its file
+  io::StagedFile staged;
+  std::unique_ptr<io::GeoTiff> tiff;  // destroyed before its file
   int cols = 0, rows = 0;
   std::vector<float> held = {};  // buffered whole rows
   int written = 0;

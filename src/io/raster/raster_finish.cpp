@@ -11,7 +11,7 @@
 #include "grid/local_frame.h"
 #include "io/commands.h"
 
-namespace scarp {
+namespace scarp::io {
 
 std::string format_memory(double bytes) {
   constexpr const char* kUnits[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
@@ -71,7 +71,7 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field, 
 }
 
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
-  set_range(height_range(field, options.run.threads), field.info);
+  grid::set_range(height_range(field, options.run.threads), field.info);
   return finish_info(field, infinities, options);
 }
 
@@ -132,7 +132,7 @@ bool looks_like_degrees(const std::array<double, 6>& gt, int cols, int rows) {
 
 Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options) {
   if (!options.cell_size && options.crs != "local") return grid_frame(rows);
-  auto frame = cell_frame(options.cell_size.value_or(1), cols, rows);
+  auto frame = grid::cell_frame(options.cell_size.value_or(1), cols, rows);
   if (!frame) return fail(frame.error().kind, name + ": " + frame.error().message);
   return frame;
 }
@@ -159,4 +159,4 @@ Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int col
   return frame;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -8,7 +8,7 @@
 
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Fails with kInput if the size is below 2×2, or a side exceeds an int.
 Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows);
@@ -51,4 +51,4 @@ bool looks_like_degrees(const std::array<double, 6>& geotransform, int cols, int
 /// "1.5 GiB", "37.0 MiB".
 std::string format_memory(double bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -8,7 +8,7 @@
 
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// read_height_field() for formats without a reader here; may throw std::bad_alloc. In a build without GDAL it fails
 /// with kInput and the reason.
@@ -41,4 +41,4 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int col
 /// True if two CRS names, as in RasterInfo::crs, mean the same CRS; in a build without GDAL, if they are equal.
 bool is_same_crs(const std::string& a, const std::string& b);
 
-}  // namespace scarp
+}  // namespace scarp::io

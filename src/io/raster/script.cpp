@@ -19,7 +19,7 @@ struct Step {
 };
 
 /// Returns a complaint about the cursor's line, or an empty string. The cursor stays within the line.
-std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step>& step) {
+std::string read_line(io::TextCursor& cursor, int cols, int rows, std::optional<Step>& step) {
   const auto next = [&] {
     const std::string_view word = cursor.word();
     return word.starts_with('#') ? std::string_view() : word;
@@ -27,16 +27,16 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step
   const std::string_view action = next();
   if (action.empty()) return {};
   if (action != "s" && action != "i" && action != "u") {
-    return fmt::format("{} is none of s (insert), i (ignore) and u (unknown)", in_quotes(action));
+    return fmt::format("{} is none of s (insert), i (ignore) and u (unknown)", io::in_quotes(action));
   }
   std::int64_t place[2] = {};
   for (std::int64_t& number : place) {
     const std::string_view word = next();
     if (word.empty()) return fmt::format("'{}' needs a column and a row", action);
-    if (!parse_integer(word, number)) return fmt::format("{} is no whole number", in_quotes(word));
+    if (!io::parse_integer(word, number)) return fmt::format("{} is no whole number", io::in_quotes(word));
   }
   if (const std::string_view more = next(); !more.empty()) {
-    return fmt::format("{} stands behind the column and the row", in_quotes(more));
+    return fmt::format("{} stands behind the column and the row", io::in_quotes(more));
   }
   if (place[0] < 0 || place[0] >= cols || place[1] < 0 || place[1] >= rows) {
     return fmt::format("({}, {}) lies outside of the raster, whose columns are 0 to {} and rows 0 to {}", place[0],
@@ -65,8 +65,8 @@ class Said {
 
 }  // namespace
 
-Result<Script> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols, int rows) {
-  TextCursor cursor(bytes);
+Result<Script> io::decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols, int rows) {
+  io::TextCursor cursor(bytes);
   Script script;
   Said said;
   while (!cursor.at_end()) {
@@ -85,7 +85,7 @@ Result<Script> decode_script(std::span<const std::uint8_t> bytes, const std::str
 
 Result<Script> read_script(const std::string& path, int cols, int rows) try {
   SCARP_TRY(auto&& bytes, read_file(path));
-  return decode_script(bytes, path, cols, rows);
+  return io::decode_script(bytes, path, cols, rows);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }

@@ -8,7 +8,7 @@
 #include "io/raster/height_unit.h"
 #include "io/raster/raster_finish.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::uint32_t kMissing = 65535;
@@ -104,4 +104,4 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
   return field;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

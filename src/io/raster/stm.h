@@ -7,7 +7,7 @@
 
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// True if the bytes begin like an STM.
 bool is_stm(std::span<const std::uint8_t> bytes);
@@ -19,4 +19,4 @@ bool is_stm(std::span<const std::uint8_t> bytes);
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 
-}  // namespace scarp
+}  // namespace scarp::io

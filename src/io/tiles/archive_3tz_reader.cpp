@@ -11,7 +11,7 @@
 #include "io/tiles/tile_names.h"
 #include "io/zip.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -125,4 +125,4 @@ class ReaderOf3tz final : public TileSetReader {
 
 Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path) { return ReaderOf3tz::open(path); }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -11,7 +11,7 @@
 #include "io/tiles/tile_names.h"
 #include "io/zip.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -86,4 +86,4 @@ Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file) {
   return archive.finish();
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

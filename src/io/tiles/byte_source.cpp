@@ -10,7 +10,7 @@
 
 #include "io/file_reason.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path) {
   const auto refuse = [&](const std::string& why) {
@@ -46,4 +46,4 @@ Result<std::vector<std::uint8_t>> ByteSource::read(std::uint64_t offset, std::ui
   return bytes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -8,7 +8,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 class ByteSource {
  public:
@@ -32,4 +32,4 @@ class ByteSource {
   std::uint64_t size_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

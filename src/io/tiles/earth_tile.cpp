@@ -7,21 +7,21 @@
 #include "globe/powers.h"
 #include "io/tiles3d.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// Distance of a horizon point too far away to hide a tile from viewers near a planet.
 constexpr double kFarOut = 1000;
 
-std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, const Space& steps) {
+std::array<std::int64_t, 3> nearest_lattice_point(const globe::Space& at, const globe::Space& steps) {
   std::array<std::int64_t, 3> point{};
   for (std::size_t k = 0; k < 3; ++k) point[k] = static_cast<std::int64_t>(std::floor(at[k] / steps[k] + 0.5));
   return point;
 }
 
 /// Degrees give shared vertices the same bits on both sides of an edge, also across the antimeridian.
-Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Ground& ground,
-                      double below = 0) {
+globe::Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const globe::Ground& ground,
+                             double below = 0) {
   const DegreeBox box = grid.bounds_of(tile.id);
   const double units = tile.units;
   const double longitude = tile.u[v] == tile.units ? box.east : box.west + (box.east - box.west) * (tile.u[v] / units);
@@ -54,10 +54,10 @@ std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& acro
   return vertices;
 }
 
-TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Ground& ground) {
-  std::vector<Space> positions;
+TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const globe::Ground& ground) {
+  std::vector<globe::Space> positions;
   for (const auto& offset : placed.offsets) {
-    Space at{};
+    globe::Space at{};
     for (std::size_t k = 0; k < 3; ++k)
       at[k] = placed.steps[k] * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
     positions.push_back(at);
@@ -66,16 +66,17 @@ TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Gro
   const auto [lowest, highest] = std::minmax_element(tile.heights.begin(), tile.heights.end());
   facts.min_height = tile.quantum * *lowest - tile.sag - placed.steps[2];
   facts.max_height = tile.quantum * *highest + placed.steps[2];
-  const Globe::Sphere sphere = Globe::sphere_around(positions);
+  const globe::Globe::Sphere sphere = globe::Globe::sphere_around(positions);
   facts.sphere = {sphere.centre[0], sphere.centre[1], sphere.centre[2], sphere.radius};
   facts.horizon_point = ground.horizon_point(sphere.centre, positions);
-  if (std::isnan(facts.horizon_point[0])) facts.horizon_point = scaled(normalized(sphere.centre), kFarOut);
+  if (std::isnan(facts.horizon_point[0]))
+    facts.horizon_point = globe::scaled(globe::normalized(sphere.centre), kFarOut);
   return facts;
 }
 
 }  // namespace
 
-Space lattice_steps(const PyramidPlan& plan, int z) {
+globe::Space lattice_steps(const PyramidPlan& plan, int z) {
   const PyramidLevel& level = plan.levels[static_cast<std::size_t>(z)];
   if (plan.grid.is_flat()) {
     const LocalRaster& raster = plan.grid.local;
@@ -84,9 +85,10 @@ Space lattice_steps(const PyramidPlan& plan, int z) {
   }
   const double side = plan.grid.tile_width(z, plan.ellipsoid.semi_major);
   // The factor leaves space for relief; larger tiles use float32.
-  const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
-  const double step = std::max(least_step, std::clamp(short_step, power_of_two_below(level.max_error / 256),
-                                                      power_of_two_below(level.max_error / 32)));
+  const double short_step = globe::power_of_two_above(1.1 * side / 65535),
+               least_step = globe::power_of_two_above(side / 0x1p21);
+  const double step = std::max(least_step, std::clamp(short_step, globe::power_of_two_below(level.max_error / 256),
+                                                      globe::power_of_two_below(level.max_error / 32)));
   return {step, step, step};
 }
 
@@ -100,7 +102,7 @@ double lattice_error(const PyramidPlan& plan, int z) {
 }
 
 EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
-  const Ground ground(plan.grid, plan.ellipsoid);
+  const globe::Ground ground(plan.grid, plan.ellipsoid);
   EarthTile placed;
   placed.steps = lattice_steps(plan, tile.id.z);
   // At the border of a local grid's raster, the mesh ends within the tile.
@@ -144,7 +146,7 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   for (auto& feet : placed.feet) {
     for (auto& foot : feet) foot = take_offset();
   }
-  for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
+  for (const auto& normal : tile.normals) placed.normals.push_back(globe::decode_octahedral(normal));
   const double units = tile.units;
   for (std::size_t v = 0; v < tile.u.size(); ++v)
     placed.places.push_back({tile.u[v] / units, (units - tile.v[v]) / units});
@@ -153,4 +155,4 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   return placed;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

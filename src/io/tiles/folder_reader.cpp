@@ -12,7 +12,7 @@
 #include "io/tiles/tile_levels.h"
 #include "io/tiles/tile_names.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 class FolderReader final : public TileSetReader {
@@ -82,4 +82,4 @@ Result<std::unique_ptr<TileSetReader>> open_folder_set(const std::string& path) 
                                         std::move(levels), std::move(files));
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

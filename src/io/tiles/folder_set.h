@@ -6,9 +6,9 @@
 
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path, TileFormat format, bool overwrite);
 Result<std::unique_ptr<TileSetReader>> open_folder_set(const std::string& path);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -12,7 +12,7 @@
 #include "io/tiles/staged_folder.h"
 #include "io/tiles/tile_names.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path
   return std::make_unique<FolderWriter>(std::move(target), std::move(folder), format, replaces);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

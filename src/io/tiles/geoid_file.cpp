@@ -9,7 +9,7 @@
 #include "scarp/io.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// Largest distance in metres between a geoid of the earth and the ellipsoid.
@@ -41,4 +41,4 @@ Result<Zero> read_geoid(const Datum& datum, const RasterOnGlobe& globe) {
   return Zero{std::move(zero), reach};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kMostSamples = 1 << 30;
@@ -53,4 +53,4 @@ std::optional<TileGrid> parse_grid(const Json& json) {
   return grid;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -6,10 +6,10 @@
 #include "io/tiles/json_members.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Json describe_grid(const TileGrid& grid);
 /// Nothing for an invalid grid, or a local one without a raster.
 std::optional<TileGrid> parse_grid(const Json& json);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// zlib's windowBits: the largest window, in a gzip file.
@@ -74,4 +74,4 @@ Result<std::vector<std::uint8_t>> decompress_gzip(std::span<const std::uint8_t> 
 
 bool is_gzip(std::span<const std::uint8_t> bytes) { return bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b; }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -7,7 +7,7 @@
 
 #include "io/mesh/glb_json.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Null if the member is missing or `object` is no object.
 inline const Json* find_member(const Json* object, const char* key) {
@@ -33,4 +33,4 @@ inline std::string find_text(const Json* object, const char* key) {
   return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -50,31 +50,31 @@ std::vector<TileRange> find_ranges(const std::vector<std::uint64_t>& tiles) {
 
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts) {
-  Json layer{{"tilejson", "2.1.0"},
-             {"name", facts.name},
-             {"description", facts.description},
-             {"version", facts.version},
-             {"format", "quantized-mesh-1.0"},
-             {"attribution", facts.attribution},
-             {"schema", "tms"},
-             {"tiles", {"{z}/{x}/{y}.terrain?v={version}"}},
-             {"projection", plan.grid.projection()},
-             {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
-             {"minzoom", 0},
-             {"maxzoom", plan.max_zoom()},
-             {"extensions", {"octvertexnormals"}}};
+  io::Json layer{{"tilejson", "2.1.0"},
+                 {"name", facts.name},
+                 {"description", facts.description},
+                 {"version", facts.version},
+                 {"format", "quantized-mesh-1.0"},
+                 {"attribution", facts.attribution},
+                 {"schema", "tms"},
+                 {"tiles", {"{z}/{x}/{y}.terrain?v={version}"}},
+                 {"projection", plan.grid.projection()},
+                 {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
+                 {"minzoom", 0},
+                 {"maxzoom", plan.max_zoom()},
+                 {"extensions", {"octvertexnormals"}}};
   if (plan.has_water_mask) layer["extensions"].push_back("watermask");
-  Json available = Json::array(), levels = Json::array();
+  io::Json available = io::Json::array(), levels = io::Json::array();
   for (std::size_t z = 0; z < report.tiles.size(); ++z) {
-    Json ranges = Json::array();
+    io::Json ranges = io::Json::array();
     for (const TileRange& range : find_ranges(report.tiles[z])) {
       ranges.push_back({{"startX", range.x}, {"startY", range.y}, {"endX", range.end_x}, {"endY", range.end_y}});
     }
     available.push_back(std::move(ranges));
-    Json level{{"geometric_error", plan.levels[z].geometric_error},
-               {"max_error", plan.levels[z].max_error},
-               {"quantum", plan.levels[z].quantum},
-               {"tiles", report.tiles[z].size()}};
+    io::Json level{{"geometric_error", plan.levels[z].geometric_error},
+                   {"max_error", plan.levels[z].max_error},
+                   {"quantum", plan.levels[z].quantum},
+                   {"tiles", report.tiles[z].size()}};
     if (!report.levels.empty()) {
       level["node_error"] = report.levels[z].node_error;
       level["bound"] = report.levels[z].bound;
@@ -87,12 +87,12 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
     levels.push_back(std::move(level));
   }
   layer["available"] = std::move(available);
-  layer["scarp"] = Json{{"generator", std::string("scarp ") + version()},
-                        {"heights_above", facts.heights_above},
-                        {"ellipsoid", {plan.ellipsoid.semi_major, semi_minor(plan.ellipsoid)}},
-                        {"cells", plan.cells},
-                        {"background", plan.background},
-                        {"levels", std::move(levels)}};
+  layer["scarp"] = io::Json{{"generator", std::string("scarp ") + version()},
+                            {"heights_above", facts.heights_above},
+                            {"ellipsoid", {plan.ellipsoid.semi_major, semi_minor(plan.ellipsoid)}},
+                            {"cells", plan.cells},
+                            {"background", plan.background},
+                            {"levels", std::move(levels)}};
   if (!facts.vertical.empty()) layer["scarp"]["vertical"] = facts.vertical;
   const std::string text = layer.dump(1) + "\n";
   return {text.begin(), text.end()};

@@ -8,7 +8,7 @@
 #include "io/tiles/tile_levels.h"
 #include "io/tiles/tile_names.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// Limits the steps of a query, since a hostile database's views can make it endless. The limit is far above the need
@@ -198,4 +198,4 @@ class MbtilesReader final : public TileSetReader {
 
 Result<std::unique_ptr<TileSetReader>> open_mbtiles(const std::string& path) { return MbtilesReader::open(path); }
 
-}  // namespace scarp
+}  // namespace scarp::io

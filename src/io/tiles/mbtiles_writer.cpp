@@ -9,7 +9,7 @@
 #include "io/tiles/sqlite.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// The application id, "MPBX", is given by the specification.
@@ -93,4 +93,4 @@ Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -5,7 +5,7 @@
 
 #include "io/mesh/file_bytes.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// 2^32 · |sin(k + 1)|.
@@ -65,4 +65,4 @@ std::array<std::uint8_t, 16> md5_of(std::string_view text) {
   return sum;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

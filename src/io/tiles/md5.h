@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-namespace scarp {
+namespace scarp::io {
 
 std::array<std::uint8_t, 16> md5_of(std::string_view text);
 
-}  // namespace scarp
+}  // namespace scarp::io

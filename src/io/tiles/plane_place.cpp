@@ -7,7 +7,7 @@
 #include "io/commands.h"
 #include "io/globe_place.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// Cells of a tile; the value does not affect the centre.
@@ -102,4 +102,4 @@ Result<RasterOnPlane> place_on_plane(const RasterInfo& info, int cols, int rows,
   return plane;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

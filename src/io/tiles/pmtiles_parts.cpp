@@ -10,7 +10,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/tiles/tile_levels.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kMagic = "PMTiles";
@@ -185,4 +185,4 @@ Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes)
   return header;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -13,7 +13,7 @@
 #include "scarp/result.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// The zoom that stores level 0.
 int pmtiles_zoom_offset(const TileGrid& grid);
@@ -59,4 +59,4 @@ constexpr std::uint64_t most_pmtiles_metadata(std::uint64_t packed) {
   return packed > kMost / kRatio ? kMost : (std::uint64_t{1} << 20) + kRatio * packed;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -13,7 +13,7 @@
 #include "io/tiles/tile_levels.h"
 #include "io/tiles/tile_names.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -198,4 +198,4 @@ class PmtilesReader final : public TileSetReader {
 
 Result<std::unique_ptr<TileSetReader>> open_pmtiles(const std::string& path) { return PmtilesReader::open(path); }
 
-}  // namespace scarp
+}  // namespace scarp::io

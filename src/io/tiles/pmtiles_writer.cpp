@@ -12,7 +12,7 @@
 #include "io/tiles/set_archive.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -127,4 +127,4 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
   return output.flush();
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

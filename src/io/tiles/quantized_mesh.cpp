@@ -192,9 +192,9 @@ bool take_indices(Reader& reader, QuantizedMesh& mesh) {
 
 std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid,
                                                 const TileGrid& grid, std::span<const std::uint8_t> water_mask) {
-  const Ground ground(grid, ellipsoid);
-  const std::vector<Space> positions = positions_in_space(tile, grid, ground);
-  const Globe::Sphere sphere = Globe::sphere_around(positions);
+  const globe::Ground ground(grid, ellipsoid);
+  const std::vector<globe::Space> positions = globe::positions_in_space(tile, grid, ground);
+  const globe::Globe::Sphere sphere = globe::Globe::sphere_around(positions);
   const HeightSteps steps = choose_steps(tile);
   Writer writer;
   writer.add_all(sphere.centre);

@@ -8,7 +8,7 @@
 
 #include "io/tiles/tile_names.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr Archive kArchives[] = {{".pmtiles", write_pmtiles, open_pmtiles},
@@ -124,4 +124,4 @@ std::string_view media_type(TileFormat format) {
   return format == TileFormat::kGlb ? "model/gltf-binary" : "application/vnd.quantized-mesh";
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include "io/tiles/tile_spool.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// A container format. write() sorts the spool and writes the whole file; the caller then calls StagedFile::end().
 /// open() fails with kInput.
@@ -59,4 +59,4 @@ inline constexpr std::string_view kIndexOf3tz = "@3dtilesIndex1@";
 Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file);
 Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -10,7 +10,7 @@
 #include "io/tiles3d.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Tiles of a level from x to end_x and from y to end_y.
 struct ClaimedTiles {
@@ -50,4 +50,4 @@ struct SetClaims {
 /// Handles hostile files: invalid claims become faults.
 SetClaims read_set_claims(const TileSetReader& set);
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace scarp {
+namespace scarp::io {
 
 struct SqliteCloser {
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
@@ -45,4 +45,4 @@ inline std::vector<std::uint8_t> column_blob(sqlite3_stmt* statement, int column
                           : std::vector<std::uint8_t>(bytes, bytes + sqlite3_column_bytes(statement, column));
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -18,7 +18,7 @@
 
 #include "io/file_reason.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ fs::path StagedFolder::path_of_old() const {
   return old;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -5,7 +5,7 @@
 
 #include "scarp/result.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Its name is ".scarp-tiles-", a hash of the final name and the machine's name, and a random suffix. The process locks
 /// it; the lock always ends with the process.
@@ -33,4 +33,4 @@ class StagedFolder {
   int lock_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -10,7 +10,7 @@
 #include "io/mesh/file_bytes.h"
 #include "io/tiles/json_members.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::uint32_t kSubtreeMark = 0x74627573;
@@ -216,4 +216,4 @@ void read_subtrees(const TileSetReader& set, const Json& tileset, SetClaims& cla
   SubtreeWalk(set, claims).walk(tileset);
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

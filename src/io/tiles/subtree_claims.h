@@ -4,9 +4,9 @@
 #include "io/mesh/glb_json.h"
 #include "io/tiles/set_claims.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Adds the tiles of the tileset's subtrees, with their known facts. Unreadable parts become faults.
 void read_subtrees(const TileSetReader& set, const Json& tileset, SetClaims& claims);
 
-}  // namespace scarp
+}  // namespace scarp::io

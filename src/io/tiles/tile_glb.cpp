@@ -16,7 +16,7 @@
 #include "io/tiles3d.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr const char* kTileEdges = "CESIUM_tile_edges";
@@ -398,4 +398,4 @@ Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb) {
   return facts;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -12,7 +12,7 @@
 #include "io/mesh/glb_numbers.h"
 #include "io/tiles3d.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 class TileGlbReader : public GlbArrays {
@@ -221,4 +221,4 @@ Result<TileGlb> decode_tile_glb(std::span<const std::uint8_t> bytes, const std::
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

@@ -7,7 +7,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// The rows and columns of tiles by level, as y · 2^32 + x. Sorted by sort().
 class TileLevels {
@@ -47,4 +47,4 @@ inline bool is_of_grid(TileId id) {
   return id.z >= 0 && id.z <= kMaxTileLevel && id.y >> id.z == 0 && id.x >> id.z < 2;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

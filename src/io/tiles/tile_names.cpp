@@ -58,7 +58,7 @@ std::optional<TileId> find_tile_id(TileFormat format, std::string_view name) {
   return TileId{static_cast<int>(*z), *root * rows + *x, *y};
 }
 
-bool is_plain_name(std::string_view name) {
+bool io::is_plain_name(std::string_view name) {
   for (;;) {
     const std::size_t slash = name.find('/');
     const std::string_view part = name.substr(0, slash);
@@ -71,14 +71,14 @@ bool is_plain_name(std::string_view name) {
   }
 }
 
-bool is_known_name(std::string_view name) {
+bool io::is_known_name(std::string_view name) {
   constexpr std::string_view kFolder = "subtrees/", kEnding = ".subtree";
   if (name == "layer.json" || name == "tileset.json") return true;
-  return is_plain_name(name) && name.substr(0, kFolder.size()) == kFolder && name.size() > kEnding.size() &&
+  return io::is_plain_name(name) && name.substr(0, kFolder.size()) == kFolder && name.size() > kEnding.size() &&
          name.substr(name.size() - kEnding.size()) == kEnding;
 }
 
-bool bears_mark(std::span<const std::uint8_t> bytes) {
+bool io::bears_mark(std::span<const std::uint8_t> bytes) {
   using Json = nlohmann::json;
   const Json json = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (!json.is_object()) return false;

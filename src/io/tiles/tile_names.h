@@ -5,7 +5,7 @@
 
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// True for valid names of additional files in a set: relative paths without empty or hidden parts, which never leave
 /// the folder.
@@ -17,4 +17,4 @@ bool is_known_name(std::string_view name);
 /// True for a layer.json or tileset.json that marks the set as Scarp's.
 bool bears_mark(std::span<const std::uint8_t> bytes);
 
-}  // namespace scarp
+}  // namespace scarp::io

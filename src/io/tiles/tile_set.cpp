@@ -42,16 +42,17 @@ Result<void> check_set_name(const std::string& path) {
 
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite) {
   SCARP_RETURN_IF_ERROR(check_set_name(path));
-  if (const Archive* archive = find_archive(path)) return create_archive_set(*archive, path, format, overwrite);
-  return create_folder_set(path, format, overwrite);
+  if (const io::Archive* archive = io::find_archive(path))
+    return io::create_archive_set(*archive, path, format, overwrite);
+  return io::create_folder_set(path, format, overwrite);
 }
 
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error))
     return fail(ErrorKind::kInput, fmt::format("no such file or folder: {}", path));
-  if (std::filesystem::is_directory(path, error)) return open_folder_set(path);
-  if (const Archive* archive = find_archive(path)) return archive->open(path);
+  if (std::filesystem::is_directory(path, error)) return io::open_folder_set(path);
+  if (const io::Archive* archive = io::find_archive(path)) return archive->open(path);
   return fail(ErrorKind::kInput,
               fmt::format("{} is no set of tiles: neither a folder nor a .pmtiles, .mbtiles or .3tz", path));
 }

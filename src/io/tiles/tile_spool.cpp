@@ -11,7 +11,7 @@
 #include "io/file_reason.h"
 #include "io/gzip.h"
 
-namespace scarp {
+namespace scarp::io {
 
 Result<std::unique_ptr<TileSpool>> TileSpool::create_beside(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -67,4 +67,4 @@ Result<std::vector<std::uint8_t>> TileSpool::read(std::uint64_t offset, std::uin
   return bytes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

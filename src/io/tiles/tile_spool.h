@@ -11,7 +11,7 @@
 #include "scarp/result.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::io {
 
 /// Stores bytes in an unnamed file, which vanishes with the process.
 class TileSpool {
@@ -63,4 +63,4 @@ class TileSpool {
   std::vector<File> files_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::io

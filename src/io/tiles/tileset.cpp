@@ -14,7 +14,7 @@
 #include "io/tiles3d.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -271,4 +271,4 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
   return files;
 }
 
-}  // namespace scarp
+}  // namespace scarp::io

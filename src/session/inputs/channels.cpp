@@ -80,7 +80,7 @@ Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField
                   fmt::format("{} {}: band {} has no value at column {}, row {}, where {} has a height: fill it "
                               "first (gdal_fillnodata.py -b {} {} {})",
                               kTexture, texture.info.path, band + 1, k % cols, k / cols, heights.info.path, band + 1,
-                              file_word(texture.info.path), new_file(".tif")));
+                              io::file_word(texture.info.path), io::new_file(".tif")));
     }
   }
   return {};

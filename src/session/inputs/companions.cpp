@@ -49,7 +49,7 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
   const std::array<double, 6>& g = raster.geotransform;
   const bool is_upright = g[2] == 0 && g[4] == 0 && g[1] > 0 && g[5] < 0;
   if (!raster.has_georeference || !other.has_georeference || !is_upright) {
-    return fmt::format("gdal_translate -r bilinear -outsize {} {} {} {}", cols, rows, file, new_file(".tif"));
+    return fmt::format("gdal_translate -r bilinear -outsize {} {} {} {}", cols, rows, file, io::new_file(".tif"));
   }
   const std::string crs =
       raster.crs.empty() || raster.crs == other.crs ? "" : fmt::format("-t_srs {} ", shell_word(raster.crs));
@@ -60,7 +60,7 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
   // Without this, gdalwarp writes 0 outside.
   const char* beyond = is_covered ? "" : "-ot Float32 -dstnodata nan ";
   return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {}{} {}", crs, g[0], south, east, g[3], cols,
-                     rows, beyond, file, new_file(".tif"));
+                     rows, beyond, file, io::new_file(".tif"));
 }
 
 /// The regions of --roi, in the order given.

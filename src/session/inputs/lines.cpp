@@ -51,7 +51,7 @@ Result<void> check_frame_of_lines(const std::string& lines, const Frame& frame, 
       fmt::format(
           "{} cannot be combined with {} {}: lines are inserted where the grid is regular, and in that CRS it is "
           "bent. Omit {}, or bend the raster first ({})",
-          lines, OptionId::kCrs, crs, OptionId::kCrs, warp_command("-t_srs " + crs, input)));
+          lines, OptionId::kCrs, crs, OptionId::kCrs, io::warp_command("-t_srs " + crs, input)));
 }
 
 }  // namespace scarp::cli

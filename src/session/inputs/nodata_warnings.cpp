@@ -16,7 +16,7 @@ std::string remedy_of(const std::string& value, const std::string& kept, const R
   if (kept.empty()) return fmt::format("give {} {}", OptionId::kNodata, value);
   const char* placeless = info.has_georeference ? "" : "-to SRC_METHOD=NO_GEOTRANSFORM -to DST_METHOD=NO_GEOTRANSFORM ";
   return fmt::format("{} accepts one value, and gdalwarp -srcnodata {} -dstnodata {} {}{} {} makes one value of both",
-                     OptionId::kNodata, value, kept, placeless, file_word(info.path), new_file(".tif"));
+                     OptionId::kNodata, value, kept, placeless, io::file_word(info.path), io::new_file(".tif"));
 }
 
 }  // namespace

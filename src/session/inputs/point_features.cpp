@@ -103,7 +103,7 @@ Result<bool> lower_by_raster(const std::string& path, PointSet& points, const Pr
     return fail(ErrorKind::kInput,
                 fmt::format("{} {} is in {}, and the points are read in {}: bring it there (gdalwarp -t_srs {} {} {})",
                             kTolerance, shell_word(path), values->info.crs, crs, shell_word(crs), shell_word(path),
-                            new_file(".tif")));
+                            io::new_file(".tif")));
   const std::array<double, 6>& g = values->info.geotransform;
   const double area = g[1] * g[5] - g[2] * g[4];
   if (!values->info.has_georeference || area == 0)

@@ -47,7 +47,7 @@ PlaceOfMesh place_of(const Mesh& mesh) {
 
 /// A CRS by its name.
 std::string words_of(const std::string& place) {
-  const auto crs = place.find('[') != std::string::npos ? describe_crs(place) : std::nullopt;
+  const auto crs = place.find('[') != std::string::npos ? io::describe_crs(place) : std::nullopt;
   return crs ? crs->name : place;
 }
 
@@ -65,7 +65,7 @@ double metres_of(const Mesh& mesh) {
   if (option == "grid") return 0;
   const bool has_crs = !metadata_of(mesh, "origin_crs").empty();
   if (option == "local") return has_crs || metadata_of(mesh, "frame").starts_with("local metres") ? 1 : 0;
-  const auto crs = describe_crs(crs_of(mesh));
+  const auto crs = io::describe_crs(crs_of(mesh));
   return crs && !crs->is_geographic ? crs->unit_in_metres : 0;
 }
 
@@ -81,7 +81,7 @@ std::string unit_of(double metres) {
 
 SurfaceUnits units_of(const Mesh& mesh) {
   const std::string named = metadata_of(mesh, "unit");
-  const double metres = metres_of(mesh), metres_up = named.empty() ? metres : find_metres(named).value_or(0);
+  const double metres = metres_of(mesh), metres_up = named.empty() ? metres : io::find_metres(named).value_or(0);
   const std::string across = unit_of(metres), up = unit_of(metres_up);
   if (across.empty() || up.empty()) return {"cubic units", "square units", named, false};
   return {across == up ? across + "³" : fmt::format("{}²·{}", across, up), across + "²", up, true};
@@ -133,7 +133,7 @@ Result<Surface> read_surface(const GivenSurface& given, bool is_y_up) {
     return fail(ErrorKind::kInput, fmt::format("{} {}: make it with {} local", given.name(), why, kCrs));
   };
   if (mesh->metadata.contains("to_earth")) return refuse("lies in space, where z is no height");
-  if (const auto crs = describe_crs(crs_of(*mesh)); crs && crs->is_geographic)
+  if (const auto crs = io::describe_crs(crs_of(*mesh)); crs && crs->is_geographic)
     return refuse("has x and y in degrees, in which there is no area");
   Surface surface{given, std::move(*mesh), std::nullopt};
   surface.max_error = max_error_of(surface.mesh);
@@ -154,7 +154,7 @@ Result<SurfaceUnits> settle_frames(std::array<Surface, 2>& surfaces) {
                                                words_of(of_from.in), to.given.name(), words_of(of_to.in), kCrs));
   if (of_from.way != of_to.way) move_by(way_between(of_to.way, of_from.way), to.mesh);
   const std::string up = metadata_of(from.mesh, "unit"), other_up = metadata_of(to.mesh, "unit");
-  if (up != other_up && !up.empty() && !other_up.empty() && find_metres(up) != find_metres(other_up))
+  if (up != other_up && !up.empty() && !other_up.empty() && io::find_metres(up) != io::find_metres(other_up))
     return fail(ErrorKind::kInput,
                 fmt::format("heights of {} are in {}, and those of {} in {}: make both as .glb, which is in metres",
                             from.given.name(), up, to.given.name(), other_up));

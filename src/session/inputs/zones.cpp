@@ -20,8 +20,8 @@ void drop_heights(Line& line) {
 }
 
 /// The polygons of a file. Without an attribute, features are numbered in their order, after kElsewhere.
-Result<std::vector<Zone>> make_zones(const std::vector<Line>& lines, const Given& field) {
-  std::vector<Zone> zones;
+Result<std::vector<run::Zone>> make_zones(const std::vector<Line>& lines, const Given& field) {
+  std::vector<run::Zone> zones;
   std::map<std::uint32_t, std::size_t> zone_of;  // by polygon
   std::map<std::string, std::uint32_t> numbers;  // by feature
   for (const Line& line : lines) {
@@ -93,8 +93,8 @@ MeshZones find_zones(const ZonePlan& plan, const Frame& frame, const Mesh& mesh)
   const auto& a = plan.affine;
   const double reach = 0.01 * std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
   MeshZones zones;
-  if (!plan.zones.empty()) zones.materials = find_materials(mesh, plan.zones, to_map, kElsewhere);
-  zones.node_strings = find_node_strings(mesh, plan.strings, to_map, reach);
+  if (!plan.zones.empty()) zones.materials = run::find_materials(mesh, plan.zones, to_map, kElsewhere);
+  zones.node_strings = run::find_node_strings(mesh, plan.strings, to_map, reach);
   return zones;
 }
 

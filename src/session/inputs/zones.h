@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kElsewhere = 1;
 
 /// The polygons and lines as read, which are also breaklines of the mesh.
 struct ZonePlan {
-  std::vector<Zone> zones;
+  std::vector<run::Zone> zones;
   std::vector<Line> strings;
   std::array<double, 6> affine{};  ///< from samples to the lines' coordinates
 };

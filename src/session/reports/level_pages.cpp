@@ -9,9 +9,9 @@
 namespace scarp::cli {
 namespace {
 
-Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
+Result<std::vector<std::uint8_t>> encode_level(const check::LevelMesh& level) {
   std::vector<std::vector<std::uint8_t>> files;
-  for (const LevelTile& tile : level.tiles) {
+  for (const check::LevelTile& tile : level.tiles) {
     SCARP_TRY(auto&& glb,
               encode_glb(tile.mesh, {.compress = can_compress_glb(), .cell = level.cell, .base_color = tile.image}));
     files.push_back(std::move(glb));
@@ -21,9 +21,9 @@ Result<std::vector<std::uint8_t>> encode_level(const LevelMesh& level) {
 
 }  // namespace
 
-Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels) {
+Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<check::LevelMesh>& levels) {
   std::vector<PageMesh> meshes;
-  for (const LevelMesh& level : levels) {
+  for (const check::LevelMesh& level : levels) {
     SCARP_TRY(auto&& glb, encode_level(level));
     meshes.push_back({fmt::format("{}, level {}", path, level.z), level.tile_bytes, std::move(glb)});
   }

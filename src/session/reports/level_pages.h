@@ -14,6 +14,6 @@ namespace scarp::cli {
 inline constexpr std::uint64_t kMostTileBytes = 8'000'000;
 
 /// A mesh for each level of the set `path`. Fails if encode_glb() fails.
-Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<LevelMesh>& levels);
+Result<std::vector<PageMesh>> encode_levels(const std::string& path, const std::vector<check::LevelMesh>& levels);
 
 }  // namespace scarp::cli

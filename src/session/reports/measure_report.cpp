@@ -35,7 +35,7 @@ std::optional<std::string> find_excess(const Judged& judged) {
   }
   if (!judged.fail_above) return std::nullopt;
   const bool has_mask = !judged.companions.mask.empty();
-  const std::optional<WeighedErrors>& errors = has_mask ? judged.judgement.weighted : judged.judgement.combined;
+  const std::optional<judge::WeighedErrors>& errors = has_mask ? judged.judgement.weighted : judged.judgement.combined;
   if (!errors || errors->over == 0) return std::nullopt;
   return fmt::format("{} max error {:.10g} {}{} exceeds {:.10g}", has_mask ? "weighted" : "combined",
                      errors->bounded.value, describe_place(errors->bounded.at), describe_rounding(rounding),
@@ -87,7 +87,7 @@ std::string describe_weighed(const Judged& judged) {
                                          format_number(judged.judgement.weighted->rmse)));
   }
   if (judged.judgement.ignored > 0) {
-    const LargestError bounded = judged.bounded();
+    const judge::LargestError bounded = judged.bounded();
     text += line("samples ignored", format_count(judged.judgement.ignored) + ", without a bound");
     text += line("max error, bounded",
                  format_number(bounded.value) + (bounded.at[0] < 0 ? "" : " " + describe_place(bounded.at)));

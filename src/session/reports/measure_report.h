@@ -25,7 +25,7 @@ struct Judged {
   Companions companions;
   Cut cut;
   Mesh mesh;
-  Judgement judgement;
+  judge::Judgement judgement;
   std::optional<ErrorGoal> goal;      ///< goal of --fail-above
   std::optional<double> fail_above;   ///< in z units
   std::optional<std::string> broken;  ///< reason why the mesh fails; nothing if it passes or without a bound
@@ -41,7 +41,7 @@ struct Judged {
     return view;
   }
   /// The largest error of samples with a bound: that of heights, or the norm for an image.
-  LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
+  judge::LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };
 

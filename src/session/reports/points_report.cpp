@@ -94,7 +94,7 @@ HeightRange height_range(const PointSet& points) {
 }
 
 std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound) {
-  if (!(measured.max_error <= bound + judging_allowance(bound, height_range(points))))
+  if (!(measured.max_error <= bound + judge::judging_allowance(bound, height_range(points))))
     return fmt::format("max error {:.10g} at {} exceeds {:.10g}", measured.max_error, describe_place(points, measured),
                        bound);
   if (measured.uncovered > 0)

@@ -156,7 +156,7 @@ void add_measurement(Json& report, const Measurement& measured, double sample_ro
   add_coverage(report, measured);
 }
 
-void add_bounded(Json& report, const LargestError& bounded) {
+void add_bounded(Json& report, const judge::LargestError& bounded) {
   report["bounded_max_error"] = bounded.value;
   report["bounded_max_error_at"] = bounded.at;
 }

@@ -33,7 +33,7 @@ void add_coverage(Json& report, const Measurement& measured);
 /// Adds errors and coverage.
 void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
 /// Adds bounded_max_error and bounded_max_error_at: [-1, -1] if all errors are 0.
-void add_bounded(Json& report, const LargestError& bounded);
+void add_bounded(Json& report, const judge::LargestError& bounded);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);

@@ -29,9 +29,9 @@ struct Outcome : SimplifyRun {
   MeshZones zones;  ///< zones found in the mesh
   Picture drape;    ///< empty without a draped image
   std::uint64_t filled = 0;
-  std::optional<LargestError> bounded;  ///< largest error of samples that are not ignored; images: norms
-  std::optional<double> bounded_goal;   ///< largest error that the goal bounds, if samples are ignored
-  std::optional<double> psnr;           ///< PSNR of the rendering in dB; +infinity if it equals the image
+  std::optional<judge::LargestError> bounded;  ///< largest error of samples that are not ignored; images: norms
+  std::optional<double> bounded_goal;          ///< largest error that the goal bounds, if samples are ignored
+  std::optional<double> psnr;                  ///< PSNR of the rendering in dB; +infinity if it equals the image
 
   /// The field with its channels.
   HeightField view() const {

@@ -101,7 +101,7 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   if (simplified.ignored > 0) {
     text += summary_line("ignored", fmt::format("{} without a bound; max error of the others {}",
                                                 format_plural(simplified.ignored, "sample"),
-                                                format_number(outcome.bounded.value_or(LargestError()).value)));
+                                                format_number(outcome.bounded.value_or(judge::LargestError()).value)));
   }
   return text;
 }

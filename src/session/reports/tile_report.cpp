@@ -41,8 +41,9 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
 Json describe_waters(const TileJob& job) {
   if (!job.plan.waters) return nullptr;
   Json lakes = Json::array(), rivers = Json::array();
-  for (const TileLake& lake : job.plan.waters->lakes) lakes.push_back({{"name", lake.name}, {"level", lake.level}});
-  for (const TileRiver& river : job.plan.waters->rivers) rivers.push_back({{"name", river.name}});
+  for (const tiles::TileLake& lake : job.plan.waters->lakes)
+    lakes.push_back({{"name", lake.name}, {"level", lake.level}});
+  for (const tiles::TileRiver& river : job.plan.waters->rivers) rivers.push_back({{"name", river.name}});
   return {{"lakes", std::move(lakes)}, {"rivers", std::move(rivers)}};
 }
 
@@ -56,7 +57,7 @@ std::string waters_line(const TileJob& job) {
   if (!job.plan.waters) return "";
   double low = INFINITY, high = -INFINITY;
   std::uint64_t lakes = 0;
-  for (const TileLake& lake : job.plan.waters->lakes) {
+  for (const tiles::TileLake& lake : job.plan.waters->lakes) {
     if (std::isnan(lake.level)) continue;
     ++lakes;
     low = std::min(low, lake.level);

@@ -15,7 +15,7 @@ std::string describe_rounding(double sample_rounding) {
 
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
                                                const HeightRange& heights) {
-  if (!(measured.max_error + sample_rounding <= bound + judging_allowance(bound, heights))) {
+  if (!(measured.max_error + sample_rounding <= bound + judge::judging_allowance(bound, heights))) {
     return fmt::format("max error {:.10g} at column {}, row {}{} exceeds {:.10g}", measured.max_error,
                        measured.max_error_at[0], measured.max_error_at[1], describe_rounding(sample_rounding), bound);
   }

@@ -64,9 +64,9 @@ inline constexpr OptionTerm kFieldOptions[] = {
     {OptionId::kGeoid},
     {OptionId::kVertical},
 };
-static_assert(std::size(kFieldOptions) == kFieldCount);
+static_assert(std::size(kFieldOptions) == pieces::kFieldCount);
 
 /// The option for a setting, with its value if that matters.
-constexpr OptionTerm option_of(Field field) { return kFieldOptions[static_cast<int>(field)]; }
+constexpr OptionTerm option_of(pieces::Field field) { return kFieldOptions[static_cast<int>(field)]; }
 
 }  // namespace scarp::cli

@@ -152,9 +152,9 @@ Result<StreamedErrors> begin_errors(const GivenOptions& given, const Judged& jud
   return errors;
 }
 
-Result<Judgement> judge_errors(const GivenOptions& given, const ProgressCallback& progress, const Judged& judged,
-                               StreamedErrors& errors) {
-  JudgeOptions options;
+Result<judge::Judgement> judge_errors(const GivenOptions& given, const ProgressCallback& progress, const Judged& judged,
+                                      StreamedErrors& errors) {
+  judge::JudgeOptions options;
   options.tolerances = judged.companions.bounds();
   options.max_error = judged.fail_above;
   options.norm = judged.plan.norm;
@@ -169,7 +169,7 @@ Result<Judgement> judge_errors(const GivenOptions& given, const ProgressCallback
       if (errors.raster && written) written = errors.raster->add(of_row);
     };
   }
-  SCARP_TRY(auto&& judgement, judge_mesh(judged.view(), judged.mesh, options));
+  SCARP_TRY(auto&& judgement, judge::judge_mesh(judged.view(), judged.mesh, options));
   if (errors.raster && written) written = errors.raster->finish();
   SCARP_RETURN_IF_ERROR(written);
   return judgement;
@@ -229,7 +229,8 @@ Result<void> write_error_files(const GivenOptions& given, const Judged& judged, 
   const OwnedHeightField& field = judged.field;
   std::vector<float> errors;
   if (!field.source)
-    errors = take_error_raster(judged.judgement, judged.plan.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+    errors = judge::take_error_raster(judged.judgement,
+                                      judged.plan.image ? judge::ErrorsOf::kNorms : judge::ErrorsOf::kHeights);
   std::vector<std::uint8_t> map, raster;
   std::vector<FileBytes> files;
   if (given[kMap]) {

@@ -33,9 +33,9 @@ struct PointsRaster::Impl {
   double cell_size = 0;
   std::vector<std::string> warnings;
   OwnedHeightField field;
-  LentRaster raster;
+  io::LentRaster raster;
   std::string name;
-  std::optional<Lent> lent;
+  std::optional<io::Lent> lent;
 };
 
 PointsRaster::PointsRaster(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -93,11 +93,11 @@ Result<std::shared_ptr<RasterFile>> write_rows(
 }
 
 /// Judges the heights again and writes each row immediately.
-Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options, const Outcome& outcome,
+Result<void> add_streamed_errors(const SimplifyPlan& plan, judge::JudgeOptions options, const Outcome& outcome,
                                  std::vector<ReadyFile>& files) {
   auto raster = write_rows(plan, *plan.error_raster, outcome, [&](const auto& on_row) -> Result<void> {
     options.on_row = on_row;
-    const auto judged = judge_mesh(outcome.field.view(), outcome.simplified.mesh, options);
+    const auto judged = judge::judge_mesh(outcome.field.view(), outcome.simplified.mesh, options);
     return judged ? Result<void>() : tl::unexpected(judged.error());
   });
   SCARP_RETURN_IF_ERROR(raster);
@@ -108,7 +108,7 @@ Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options,
 /// Writes signed errors of heights, or for an image the norms over its bands.
 Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
                               std::vector<ReadyFile>& files) {
-  JudgeOptions options;
+  judge::JudgeOptions options;
   options.norm = plan.channels.norm;
   options.weigh = false;
   options.topology = false;
@@ -117,10 +117,10 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   options.run.progress = progress;
   if (outcome.field.source) return add_streamed_errors(plan, options, outcome, files);
   options.keep_errors = true;
-  SCARP_TRY(Judgement judged,
-            judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options));
-  const std::vector<float> errors =
-      take_error_raster(std::move(judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  SCARP_TRY(judge::Judgement judged, judge::judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(),
+                                                       outcome.simplified.mesh, options));
+  const std::vector<float> errors = judge::take_error_raster(
+      std::move(judged), plan.channels.image ? judge::ErrorsOf::kNorms : judge::ErrorsOf::kHeights);
   SCARP_TRY(std::vector<std::uint8_t> tiff,
             encode_raster({errors, outcome.field.cols, outcome.field.rows, &outcome.as_read}, RasterFormat::kGeoTiff));
   files.push_back({*plan.error_raster, "tif", std::move(tiff)});

@@ -176,7 +176,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
   const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
-  JudgeOptions options;
+  judge::JudgeOptions options;
   options.tolerances = companions.bounds();
   options.max_error = outcome.asked;
   options.norm = plan.channels.norm;
@@ -185,8 +185,8 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   options.weigh = has_norms || companions.ignores_samples();
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = progress;
-  SCARP_TRY(const Judgement& judged,
-            judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options));
+  SCARP_TRY(const judge::Judgement& judged,
+            judge::judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options));
   outcome.bounded = plan.channels.image ? judged.combined->bounded : judged.bounded;
   if (companions.ignores_samples()) {
     outcome.bounded_goal = judged.weighted   ? judged.weighted->bounded.value
@@ -211,7 +211,7 @@ Result<void> check_promise(const Outcome& outcome) {
     // With weights, the engine subtracted the samples' rounding from each bound before weighing errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
     const double allowance =
-        judging_allowance(*asked, measured.heights) + 1e-12 * outcome.channels.magnitude +
+        judge::judging_allowance(*asked, measured.heights) + 1e-12 * outcome.channels.magnitude +
         (goal.is_rounded ? std::ldexp(*asked, -24) * static_cast<double>(4 + outcome.channels.count()) : 0);
     if (!(goal.value + rounding <= *asked + allowance)) {
       return fail(ErrorKind::kPromise,

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 constexpr std::int32_t kLanes = 4;
@@ -175,4 +175,4 @@ NodeErrors scan_nodes(const TerrainTile& tile, const TileNodes& nodes, double li
   return scan.finish();
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

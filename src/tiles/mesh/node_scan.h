@@ -7,7 +7,7 @@
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 struct NodeErrors {
   double largest = 0;           ///< largest |mesh − node| over all nodes that the mesh covers
@@ -19,4 +19,4 @@ struct NodeErrors {
 /// missed. REQUIRES: triangles are positive. Cost: some nanoseconds per node, and a hundred per triangle.
 NodeErrors scan_nodes(const TerrainTile& tile, const TileNodes& nodes, double limit);
 
-}  // namespace scarp
+}  // namespace scarp::tiles

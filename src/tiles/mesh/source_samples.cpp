@@ -4,7 +4,7 @@
 
 #include "tiles/mesh/tile_rows.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& grid, const TileNodes& nodes,
                                        const NodeSource& source, double limit) {
@@ -27,4 +27,4 @@ Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& 
   return SampleVerdict{surface.largest_error(), surface.far_points()};
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -7,7 +7,7 @@
 #include "tiles/mesh/tile_nodes.h"
 #include "tiles/mesh/tile_surface.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 struct SampleVerdict {
   double error = 0;                  ///< largest error; NaN: the source has no samples
@@ -19,4 +19,4 @@ Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& 
                                        const NodeSource& source,
                                        double limit = std::numeric_limits<double>::infinity());
 
-}  // namespace scarp
+}  // namespace scarp::tiles

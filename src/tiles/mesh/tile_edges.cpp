@@ -5,7 +5,7 @@
 
 #include "scarp/options.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Number of tolerances to try, each 63/64 of the one before; then every node becomes a vertex.
@@ -66,4 +66,4 @@ std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const Pyr
   return all;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -7,7 +7,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Quantizes a node's column or row to 0 … `units` in a tile of `steps` steps a side.
 inline std::uint16_t quantized(std::int64_t node, std::int64_t steps, std::int64_t units) {
@@ -30,4 +30,4 @@ struct EdgeNodes {
 std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level,
                                                std::span<const std::int32_t> forced = {});
 
-}  // namespace scarp
+}  // namespace scarp::tiles

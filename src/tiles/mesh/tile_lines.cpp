@@ -63,7 +63,7 @@ void add_crossings(const Node& a, const Node& b, std::size_t axis, std::int64_t 
   const std::size_t other = 1 - axis;
   const std::int64_t whole = std::abs(b[axis] - a[axis]), way = b[axis] > a[axis] ? 1 : -1;
   const std::int64_t from = std::max(std::min(a[axis], b[axis]), low), to = std::min(std::max(a[axis], b[axis]), high);
-  for (std::int64_t at = (floor_of(from, cells) + 1) * cells; at < to; at += cells) {
+  for (std::int64_t at = (globe::floor_of(from, cells) + 1) * cells; at < to; at += cells) {
     if (at == a[axis] || at == b[axis]) continue;
     const std::int64_t share = way * (at - a[axis]);
     // The nearest node on the edge; of two equally near ones, the one farther south or east.
@@ -140,13 +140,13 @@ class LevelLines {
   /// Null beyond the poles.
   Paths* tile_at(std::int64_t column, std::int64_t row) {
     if (row < 0 || row >= rows_) return nullptr;
-    const std::int64_t x = column - floor_of(column, columns_) * columns_, y = rows_ - 1 - row;
+    const std::int64_t x = column - globe::floor_of(column, columns_) * columns_, y = rows_ - 1 - row;
     return &tiles_[{static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(x)}];
   }
 
   /// Adds the node to all tiles whose edge it lies on.
   void add_edge_node(const Node& node) {
-    const std::int64_t column = floor_of(node[0], cells_), row = floor_of(node[1], cells_);
+    const std::int64_t column = globe::floor_of(node[0], cells_), row = globe::floor_of(node[1], cells_);
     const auto col = static_cast<std::int32_t>(node[0] - column * cells_);
     const auto line = static_cast<std::int32_t>(node[1] - row * cells_);
     const auto last = static_cast<std::int32_t>(cells_);
@@ -172,7 +172,8 @@ class LevelLines {
       if (a[axis] == b[axis] && a[axis] % cells_ == 0) return;
     }
     // The tile of the step's middle, which is on no edge; computed from the doubled middle.
-    const std::int64_t column = floor_of(a[0] + b[0], 2 * cells_), row = floor_of(a[1] + b[1], 2 * cells_);
+    const std::int64_t column = globe::floor_of(a[0] + b[0], 2 * cells_),
+                       row = globe::floor_of(a[1] + b[1], 2 * cells_);
     const auto local = [&](const Node& node) {
       return std::array<std::int64_t, 2>{node[0] - column * cells_, node[1] - row * cells_};
     };

@@ -24,7 +24,7 @@
 #include "tiles/mesh/tile_rows.h"
 #include "tiles/mesh/tile_surface.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Meshes to try until the decoded one satisfies the level's max error.
@@ -326,7 +326,7 @@ class TileMaker {
   }
 
   void finish(TerrainTile& tile) const {
-    const Ground ground(plan_.grid, plan_.ellipsoid);
+    const globe::Ground ground(plan_.grid, plan_.ellipsoid);
     tile.sag = largest_sag(tile, plan_.grid, ground);
     tile.normals = node_normals(tile, nodes_, rows_, plan_.grid, ground);
   }
@@ -422,4 +422,4 @@ Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNode
   return make_within_limit({plan, id, few, judge}, plan, id, proof.complete, encode);
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -7,7 +7,7 @@
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// An upper bound of |mesh − node| over a tile, for the mesh that clients decode.
 struct TileVerdict {
@@ -39,4 +39,4 @@ TileProof proof_at_nodes(const PyramidPlan& plan, const TileNodes& nodes, const 
 Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileProof& proof,
                               const TileEncoder& encode);
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -5,13 +5,13 @@
 
 #include "globe/tile_positions.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 std::int32_t normal_reach(std::int32_t steps) { return std::max(1, steps / 256); }
 
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
                                                       const TileRows& rows, const TileGrid& grid,
-                                                      const Ground& ground) {
+                                                      const globe::Ground& ground) {
   const std::int32_t steps = nodes.steps(), reach = normal_reach(steps);
   const DegreeBox box = grid.bounds_of(tile.id);
   const NodeWindow window = grid.window_of(tile.id, steps);
@@ -21,10 +21,10 @@ std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, c
     const std::int32_t col = nearest_node(tile.u[k], steps, tile.units), row = rows.nearest(tile.v[k]);
     // Degrees of the node by its place on the globe, so that tiles on both sides of an edge have the same bits.
     const double longitude = window.longitude(window.col + col), latitude = window.latitude(window.row + row);
-    const Ground::Axes axes = ground.axes(longitude, latitude);
-    Space normal = axes.up;
+    const globe::Ground::Axes axes = ground.axes(longitude, latitude);
+    globe::Space normal = axes.up;
     if (!window.is_pole(window.row + row)) {
-      const Globe::Radii radii = ground.metres(latitude);
+      const globe::Globe::Radii radii = ground.metres(latitude);
       // The last nodes of the land are repeated outside.
       const double north_of = window.latitude(std::max(window.row + row - reach, land.first)),
                    south_of = window.latitude(std::min(window.row + row + reach, land.last));
@@ -36,18 +36,19 @@ std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, c
           (double{nodes.at(col + reach, row)} - double{nodes.at(col - reach, row)}) / (across * radii.parallel);
       const double rise_north =
           (double{nodes.at(col, row - reach)} - double{nodes.at(col, row + reach)}) / (down * radii.meridian);
-      normal = normalized(sum(axes.up, sum(scaled(axes.east, -rise_east), scaled(axes.north, -rise_north))));
+      normal = globe::normalized(globe::sum(
+          axes.up, globe::sum(globe::scaled(axes.east, -rise_east), globe::scaled(axes.north, -rise_north))));
     }
-    normals.push_back(encode_octahedral(normal));
+    normals.push_back(globe::encode_octahedral(normal));
   }
   return normals;
 }
 
-double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Ground& ground) {
-  const std::vector<Space> positions = positions_in_space(tile, grid, ground);
+double largest_sag(const TerrainTile& tile, const TileGrid& grid, const globe::Ground& ground) {
+  const std::vector<globe::Space> positions = globe::positions_in_space(tile, grid, ground);
   const auto square = [&](std::uint32_t a, std::uint32_t b) {
-    const Space way = sum(positions[a], scaled(positions[b], -1));
-    return dot(way, way);
+    const globe::Space way = globe::sum(positions[a], globe::scaled(positions[b], -1));
+    return globe::dot(way, way);
   };
   double worst = 0;
   for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
@@ -74,4 +75,4 @@ Mesh decoded(const TerrainTile& tile, std::int32_t steps) {
   return mesh;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

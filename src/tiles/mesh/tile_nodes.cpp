@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace scarp {
+namespace scarp::tiles {
 
 NodeArea land_of(const TileGrid& grid, TileId id, std::int32_t steps) {
   const NodeWindow window = grid.window_of(id, steps);
@@ -93,4 +93,4 @@ TileNodes TileNodes::flat(const PyramidPlan& plan, TileId id, std::int32_t least
   return nodes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

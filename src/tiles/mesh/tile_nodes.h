@@ -7,7 +7,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Cells on a side of the coarse tiles that form the levels above the blocks (coarse_nodes.h).
 inline constexpr std::int32_t kCoarseCells = 128;
@@ -68,4 +68,4 @@ class TileNodes {
   bool has_heights_ = false, is_flat_ = true;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

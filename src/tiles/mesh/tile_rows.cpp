@@ -6,7 +6,7 @@
 #include "tiles/mesh/tile_edges.h"
 #include "tiles/mesh/tile_mesh_parts.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 TileRows::TileRows(const TileGrid& grid, TileId id, std::int32_t steps) : grid_(grid), steps_(steps) {
   const NodeWindow window = grid.window_of(id, steps);
@@ -39,4 +39,4 @@ std::uint16_t TileRows::v_of(std::int64_t parts, std::int32_t per_step) const {
   return static_cast<std::uint16_t>(std::floor(32767 * ((latitude - south_) / (north_ - south_)) + 0.5));
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

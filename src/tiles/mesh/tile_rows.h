@@ -7,7 +7,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 class TileRows {
  public:
@@ -33,4 +33,4 @@ class TileRows {
   std::vector<double> lines_;          ///< empty if rows are evenly spaced
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -6,7 +6,7 @@
 
 #include "globe/row_range.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// A point at most this · side length beyond a side counts as inside. Rounding contributes 1e-7.
@@ -87,7 +87,7 @@ void TileSurface::note(std::uint32_t facet, const FarPoint& point) {
 
 void TileSurface::judge(const PointRow& row) {
   const auto [first, end] =
-      range_within(row.u, row.step_u, row.v, row.step_v, row.heights.size(), {0, 0, side_, side_});
+      globe::range_within(row.u, row.step_u, row.v, row.step_v, row.heights.size(), {0, 0, side_, side_});
   if (first >= end) return;
   const auto u_of = [&](std::size_t i) { return row.u + row.step_u * static_cast<double>(i); };
   const auto v_of = [&](std::size_t i) { return row.v + row.step_v * static_cast<double>(i); };
@@ -125,4 +125,4 @@ std::vector<FarPoint> TileSurface::far_points() const {
   return points;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

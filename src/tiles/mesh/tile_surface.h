@@ -14,7 +14,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Heights at equal steps on a straight line, in units of the tile from its south-western corner; NaN: none.
 struct PointRow {
@@ -64,4 +64,4 @@ class TileSurface {
   std::vector<FarPoint> far_;  ///< by facet, if there is a limit
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// If wanted nodes are at most this many steps apart, all nodes are read.
@@ -31,4 +31,4 @@ Result<void> DecimatedNodes::read(const NodeWindow& window, std::span<float> out
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -5,7 +5,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Coarser lattices of a source that is read on its finest one. Each height is the source's at that place.
 class DecimatedNodes final : public NodeSource {
@@ -21,4 +21,4 @@ class DecimatedNodes final : public NodeSource {
   std::int64_t per_turn_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -7,7 +7,7 @@
 #include "base/bits.h"
 #include "base/parallel.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Rows per read of a thread.
@@ -94,4 +94,4 @@ Result<void> HeldNodes::read(const NodeWindow& window, std::span<float> out) con
   return {};
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

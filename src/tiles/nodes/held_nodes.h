@@ -7,7 +7,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Nodes of the source's land, read once for many tiles; other nodes have no heights.
 class HeldNodes final : public NodeSource {
@@ -35,4 +35,4 @@ class HeldNodes final : public NodeSource {
   std::vector<float> heights_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -36,7 +36,7 @@ class LocalNodes final : public NodeSource {
         held = from;
         rows = step == 1 ? last_row - from + 1 : 1;
         samples.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(rows));
-        SCARP_RETURN_IF_ERROR(read_window(field_, first, held, count, rows, samples.data(), count));
+        SCARP_RETURN_IF_ERROR(grid::read_window(field_, first, held, count, rows, samples.data(), count));
       }
       const float* const line = samples.data() + std::ptrdiff_t{from - held} * count;
       float* const nodes = out.data() + std::ptrdiff_t{j} * window.cols;
@@ -59,7 +59,7 @@ class LocalNodes final : public NodeSource {
     for (int first = top; first <= bottom; first += together) {
       const int rows = std::min(together, bottom - first + 1);
       samples.resize(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
-      SCARP_RETURN_IF_ERROR(read_window(field_, left, first, cols, rows, samples.data(), cols));
+      SCARP_RETURN_IF_ERROR(grid::read_window(field_, left, first, cols, rows, samples.data(), cols));
       for (int j = 0; j < rows; ++j)
         visit({static_cast<double>(left),
                static_cast<double>(field_.rows - 1 - first - j),

@@ -76,8 +76,8 @@ class RaisedNodes final : public NodeSource {
     std::optional<ZeroGrid> zeros;  // zeros of the current part of the earth
     std::vector<float> raised;
     return source_.visit_samples(box, [&](const SampleRow& row) {
-      const auto [first, end] =
-          range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+      const auto [first, end] = globe::range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude,
+                                                    row.heights.size(), box);
       if (first >= end) return;
       SampleRow part = row;
       part.longitude += row.step_longitude * static_cast<double>(first);

@@ -52,8 +52,8 @@ class Part {
              (wraps ? wrap(col + k + count, field.cols) : clamped(col + k + count, field.cols)) == from + count)
         ++count;
       std::vector<float> run(static_cast<std::size_t>(count) * static_cast<std::size_t>(height));
-      SCARP_RETURN_IF_ERROR(
-          read_window(field, static_cast<int>(from), static_cast<int>(first_row), count, height, run.data(), count));
+      SCARP_RETURN_IF_ERROR(grid::read_window(field, static_cast<int>(from), static_cast<int>(first_row), count, height,
+                                              run.data(), count));
       for (int y = 0; y < rows; ++y) {
         const std::int64_t source_row = clamped(row + y, field.rows) - first_row;
         std::copy_n(run.data() + source_row * count, count, part.samples_.data() + std::ptrdiff_t{y} * cols + k);
@@ -108,7 +108,7 @@ class RasterNodes final : public NodeSource {
   bool has_samples() const override { return place_.from_degrees == nullptr || place_.to_degrees != nullptr; }
 
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
-    const SampleRows rows(field_, place_);
+    const tiles::SampleRows rows(field_, place_);
     if (place_.from_degrees != nullptr) return rows.visit_placed(box, visit);
     for (const double turn : {-720, -360, 0, 360, 720}) {
       SCARP_RETURN_IF_ERROR(rows.visit_in_degrees(box, turn, visit));

@@ -6,7 +6,7 @@
 
 #include "grid/window.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Samples between exact places in each direction.
@@ -76,7 +76,8 @@ Result<void> SampleRows::read_bands(const Window& window, const Take& take) cons
     band.row += first;
     band.rows = std::min(together, window.rows - first);
     heights.resize(static_cast<std::size_t>(band.cols) * static_cast<std::size_t>(band.rows));
-    SCARP_RETURN_IF_ERROR(read_window(field_, band.col, band.row, band.cols, band.rows, heights.data(), band.cols));
+    SCARP_RETURN_IF_ERROR(
+        grid::read_window(field_, band.col, band.row, band.cols, band.rows, heights.data(), band.cols));
     take(band, heights.data());
   }
   return {};
@@ -193,4 +194,4 @@ Result<void> SampleRows::visit_placed(const DegreeBox& box, const SampleVisitor&
   });
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -4,7 +4,7 @@
 #include "scarp/height_field.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 class SampleRows {
  public:
@@ -38,4 +38,4 @@ class SampleRows {
   double determinant_ = 0;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

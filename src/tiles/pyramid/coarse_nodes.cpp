@@ -11,7 +11,7 @@
 #include "tiles/mesh/tile_rows.h"
 #include "tiles/pyramid/larger.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Rounds a number outwards to single precision.
@@ -125,8 +125,8 @@ Result<void> CoarseTile::look_at_samples(const PyramidPlan& plan, TileId id, con
   const double finer = static_cast<double>(nodes.steps()) / kCoarseCells;
   const TileRows rows(plan.grid, id, kCoarseCells), fine_rows(plan.grid, id, nodes.steps());
   return source.visit_samples(box, [&](const SampleRow& row) {
-    const auto [first, end] =
-        range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+    const auto [first, end] = globe::range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude,
+                                                  row.heights.size(), box);
     for (std::size_t i = first; i < end; ++i) {
       const double height = row.heights[i];
       const double x = (row.longitude + row.step_longitude * static_cast<double>(i) - box.west) * per_x;
@@ -308,4 +308,4 @@ CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const 
   return worst;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

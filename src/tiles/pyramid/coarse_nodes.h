@@ -19,7 +19,7 @@
 #include "scarp/tile.h"
 #include "tiles/mesh/tile_nodes.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Bounds over the nodes in a cell: of node − bilinear surface, and of heights.
 struct CoarseCell {
@@ -97,4 +97,4 @@ struct CoarseVerdict {
 /// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`, and |mesh − sample|.
 CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const CoarseLevel& level);
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -19,7 +19,8 @@ using Flags = std::vector<bool>;
 
 /// True for each tile of the finest level below a block that has heights.
 Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSource& source) {
-  const std::int32_t side = 1 << (plan.max_zoom() - block.z), steps = steps_of(plan, block.z), cells = plan.cells;
+  const std::int32_t side = 1 << (plan.max_zoom() - block.z), steps = tiles::steps_of(plan, block.z),
+                     cells = plan.cells;
   NodeWindow band = plan.grid.window_of(block, steps);
   const std::int64_t first = band.row;
   band.rows = cells + 1;
@@ -48,7 +49,7 @@ Flags find_covered(const PyramidPlan& plan, TileId block) {
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x)
       has[std::size_t{y} * side + x] =
-          is_covered(plan, {plan.max_zoom(), (block.x << deeper) + x, (block.y << deeper) + y});
+          tiles::is_covered(plan, {plan.max_zoom(), (block.x << deeper) + x, (block.y << deeper) + y});
   }
   return has;
 }
@@ -68,7 +69,8 @@ void add_below(const PyramidPlan& plan, TileId block, Flags has, std::vector<std
     for (std::uint32_t y = 0; y < side; ++y) {
       for (std::uint32_t x = 0; x < side; ++x) {
         const TileId id{z, (block.x << deeper) + x, (block.y << deeper) + y};
-        if ((has[std::size_t{y} * side + x] || (plan.has_siblings && parents[parent(x, y)])) && is_wanted(plan, id))
+        if ((has[std::size_t{y} * side + x] || (plan.has_siblings && parents[parent(x, y)])) &&
+            tiles::is_wanted(plan, id))
           levels[static_cast<std::size_t>(z)].push_back(std::uint64_t{id.y} << 32 | id.x);
       }
     }
@@ -81,12 +83,12 @@ void add_below(const PyramidPlan& plan, TileId block, Flags has, std::vector<std
 Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
                                                            const Run& run) {
   std::vector<std::vector<std::uint64_t>> levels(plan.levels.size());
-  const std::vector<TileSet> chosen = choose_tiles(plan);
+  const std::vector<tiles::TileSet> chosen = tiles::choose_tiles(plan);
   for (std::size_t z = 0; z < chosen.size(); ++z) {
     for (const auto& [y, x] : chosen[z]) levels[z].push_back(std::uint64_t{y} << 32 | x);
   }
   std::vector<TileId> blocks = find_blocks(plan);
-  std::erase_if(blocks, [&](TileId block) { return !is_covered(plan, block); });
+  std::erase_if(blocks, [&](TileId block) { return !tiles::is_covered(plan, block); });
   std::vector<Result<Flags>> found(blocks.size());
   Reporter reporter(run.progress);
   Result<void> result;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// The larger error; NaN (unknown) if either is NaN.
 template <class T>
@@ -12,4 +12,4 @@ T larger(T a, T b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::quiet_NaN() : std::max(a, b);
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

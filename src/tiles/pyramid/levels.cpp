@@ -56,8 +56,8 @@ double degrees_of_step(int z, int cells, double latitude, const TileGrid& grid) 
 }
 
 /// Metres between two nodes on the ground.
-double spacing_of(int z, int cells, double latitude, const TileGrid& grid, const Globe& globe) {
-  const Globe::Radii radii = globe.radii(latitude);
+double spacing_of(int z, int cells, double latitude, const TileGrid& grid, const globe::Globe& globe) {
+  const globe::Globe::Radii radii = globe.radii(latitude);
   return degrees_of_step(z, cells, latitude, grid) * (kPi / 180) * std::sqrt(radii.meridian * radii.parallel);
 }
 
@@ -70,14 +70,14 @@ std::optional<DegreeBox> part_on(const TileGrid& grid, const DegreeBox& box) {
 
 /// True if each row of nodes of a block has a distinct v. On some grids, rows crowd at a block's ends.
 bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
-  const TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
+  const tiles::TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
   for (std::int32_t row = 0; !rows.are_even() && row < steps; ++row) {
     if (rows.v_of(row + 1) == rows.v_of(row)) return false;
   }
   return true;
 }
 
-int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const Globe& globe) {
+int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const globe::Globe& globe) {
   if (grid.is_flat()) return grid.finest_local(cells);
   const DegreeBox& covered = source.covered;
   // Nodes are arbitrarily dense at a covered pole, so the cover's edge counts.
@@ -99,20 +99,20 @@ class Quanta {
   Quanta(double low, double high, bool is_flat) : low_(low), high_(high), is_flat_(is_flat) {
     // A tile must hold its relief, which is at most that of the whole source.
     const double room = (high - low) / kQuantaOfTile;
-    if (room > 0) compact_ = 2 * power_of_two_below(room);
+    if (room > 0) compact_ = 2 * globe::power_of_two_below(room);
     least_ = std::max(kLeastQuantum, compact_);
     if (!is_flat) return;
     const double reach = std::max({high - low, std::abs(low), std::abs(high)}) / kQuantaOfFloat;
-    least_ = reach > 0 ? power_of_two_above(reach) : kLeastQuantum;
+    least_ = reach > 0 ? globe::power_of_two_above(reach) : kLeastQuantum;
   }
 
   double least() const { return least_; }
   double least_error() const { return kLeastQuantaOfError * least_; }
   /// REQUIRES: a max error of least_error() or more.
   double of(double max_error) const {
-    const double fine = std::max(power_of_two_below(max_error / kQuantaOfError), least_);
+    const double fine = std::max(globe::power_of_two_below(max_error / kQuantaOfError), least_);
     // GLB holds any relief, but needs fewer bytes for few quanta.
-    return std::max(fine, std::min(compact_, power_of_two_below(max_error / kLeastQuantaOfError)));
+    return std::max(fine, std::min(compact_, globe::power_of_two_below(max_error / kLeastQuantaOfError)));
   }
   Result<void> check(double max_error, int level) const {
     if (max_error >= least_error()) return {};
@@ -155,8 +155,8 @@ SourceFacts join_facts(std::span<const SourceFacts> stack, const TileGrid& grid)
   return all;
 }
 
-/// The intersection of two boxes; if they meet twice around the globe, the larger part. A source that spans the whole turn covers any
-/// box.
+/// The intersection of two boxes; if they meet twice around the globe, the larger part. A source that spans the whole
+/// turn covers any box.
 std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
   std::optional<DegreeBox> best;
   if (is_round(grid, covered)) best = {only.west, covered.south, only.east, covered.north};
@@ -233,7 +233,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
                             "nodata undeclared?)",
                             source.min, source.max, highest));
 
-  const Globe globe(settings.ellipsoid);
+  const globe::Globe globe(settings.ellipsoid);
   PyramidPlan plan;
   plan.cells = settings.cells;
   plan.effort = settings.effort;

@@ -16,18 +16,18 @@
 namespace scarp {
 namespace {
 
-Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below,
+Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const tiles::CoarseLevel& below,
                                             const TileEncoder& encode) {
-  const std::int32_t steps = 2 * kCoarseCells;
-  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), below));
+  const std::int32_t steps = 2 * tiles::kCoarseCells;
+  SCARP_TRY(const auto& nodes, tiles::TileNodes::read(plan, id, steps, tiles::normal_reach(steps), below));
   double source_error = 0;
-  const auto judge = [&](const TerrainTile& made) -> Result<TileVerdict> {
-    const CoarseVerdict verdict = bound_errors(made, plan.grid, below);
+  const auto judge = [&](const TerrainTile& made) -> Result<tiles::TileVerdict> {
+    const tiles::CoarseVerdict verdict = tiles::bound_errors(made, plan.grid, below);
     source_error = verdict.source_error;
-    return TileVerdict{verdict.node_error, {}};
+    return tiles::TileVerdict{verdict.node_error, {}};
   };
   // Land may be between flat nodes.
-  const std::array<TileId, 4> children = children_of(id);
+  const std::array<TileId, 4> children = tiles::children_of(id);
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });
   const auto complete = [&](TerrainTile& tile) -> Result<void> {
@@ -35,18 +35,19 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
     tile.source_error = source_error;
     return {};
   };
-  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, {judge, complete}, encode));
+  SCARP_TRY(auto&& kept, tiles::make_tile_of(plan, id, nodes, {judge, complete}, encode));
   return std::optional(std::move(kept));
 }
 
-CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles, const CoarseLevel& below) {
-  CoarseLevel level(tiles.front().z, plan.background);
+tiles::CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles,
+                              const tiles::CoarseLevel& below) {
+  tiles::CoarseLevel level(tiles.front().z, plan.background);
   for (const TileId id : tiles) {
-    const auto [south_west, south_east, north_west, north_east] = children_of(id);
-    const std::array<const CoarseTile*, 4> children{
+    const auto [south_west, south_east, north_west, north_east] = tiles::children_of(id);
+    const std::array<const tiles::CoarseTile*, 4> children{
         &below.at(north_west.x, north_west.y), &below.at(north_east.x, north_east.y),
         &below.at(south_west.x, south_west.y), &below.at(south_east.x, south_east.y)};
-    CoarseTile joined = CoarseTile::join(plan.grid, id, children);
+    tiles::CoarseTile joined = tiles::CoarseTile::join(plan.grid, id, children);
     if (joined.has_heights) level.add(id.x, id.y, std::move(joined));
   }
   return level;
@@ -59,17 +60,17 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   PyramidReport report;
   report.levels.resize(plan.levels.size());
   report.tiles.resize(plan.levels.size());
-  CoarseLevel below(plan.block_level, plan.background);
+  tiles::CoarseLevel below(plan.block_level, plan.background);
   for (BlockReport& block : blocks) {
-    add_report(report, block.report);
+    tiles::add_report(report, block.report);
     if (block.reduced.empty()) continue;
-    SCARP_TRY(auto&& coarse, CoarseTile::from_bytes(block.reduced));
+    SCARP_TRY(auto&& coarse, tiles::CoarseTile::from_bytes(block.reduced));
     below.add(block.block.x, block.block.y, std::move(coarse));
     block = {};
   }
   if (plan.block_level == 0) return report;
-  TileOutput output(plan, sink, run);
-  const std::vector<TileSet> chosen = choose_tiles(plan);
+  tiles::TileOutput output(plan, sink, run);
+  const std::vector<tiles::TileSet> chosen = tiles::choose_tiles(plan);
   for (int z = plan.block_level - 1; z >= 0; --z) {
     std::vector<TileId> tiles;
     for (const auto& [y, x] : chosen[static_cast<std::size_t>(z)]) tiles.push_back({z, x, y});
@@ -77,7 +78,7 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
         output.make(tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); }));
     below = join_level(plan, tiles, below);
   }
-  add_report(report, output.take_report());
+  tiles::add_report(report, output.take_report());
   return report;
 }
 

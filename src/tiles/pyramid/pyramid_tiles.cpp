@@ -39,7 +39,7 @@ std::uint64_t place_on_curve(TileId id) {
 
 int finest_level(const PyramidPlan& plan, TileId id) {
   // A margin on each side: heights on a border, or within the reach of normals, count on both sides of the border.
-  const double node = (normal_reach(steps_of(plan, plan.block_level)) + 1) *
+  const double node = (tiles::normal_reach(tiles::steps_of(plan, plan.block_level)) + 1) *
                       plan.grid.largest_step(plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const DegreeBox box = plan.grid.bounds_of(id);
   if (plan.sources.empty()) return overlap(plan, box, plan.covered, node) ? plan.max_zoom() : -1;
@@ -50,17 +50,17 @@ int finest_level(const PyramidPlan& plan, TileId id) {
   return finest;
 }
 
-bool is_covered(const PyramidPlan& plan, TileId id) { return plan.grid.has(id) && finest_level(plan, id) >= 0; }
+bool tiles::is_covered(const PyramidPlan& plan, TileId id) { return plan.grid.has(id) && finest_level(plan, id) >= 0; }
 
-bool is_wanted(const PyramidPlan& plan, TileId id) {
+bool tiles::is_wanted(const PyramidPlan& plan, TileId id) {
   if (!plan.grid.has(id)) return false;
   if (id.z <= plan.block_level || plan.sources.empty()) return true;
   if (!plan.has_siblings) return finest_level(plan, id) >= id.z;
-  const std::array<TileId, 4> siblings = children_of({id.z - 1, id.x / 2, id.y / 2});
+  const std::array<TileId, 4> siblings = tiles::children_of({id.z - 1, id.x / 2, id.y / 2});
   return std::any_of(siblings.begin(), siblings.end(), [&](TileId one) { return finest_level(plan, one) >= id.z; });
 }
 
-std::array<TileId, 4> children_of(TileId id) {
+std::array<TileId, 4> tiles::children_of(TileId id) {
   const int z = id.z + 1;
   return {{{z, 2 * id.x, 2 * id.y},
            {z, 2 * id.x + 1, 2 * id.y},
@@ -68,14 +68,15 @@ std::array<TileId, 4> children_of(TileId id) {
            {z, 2 * id.x + 1, 2 * id.y + 1}}};
 }
 
-std::vector<TileSet> choose_tiles(const PyramidPlan& plan) {
-  std::vector<TileSet> chosen(1);
+std::vector<tiles::TileSet> tiles::choose_tiles(const PyramidPlan& plan) {
+  std::vector<tiles::TileSet> chosen(1);
   for (std::uint32_t x = 0; x < plan.grid.roots(); ++x) chosen.front().insert({0, x});
   for (int z = 1; z <= plan.block_level; ++z) {
-    TileSet level;
+    tiles::TileSet level;
     for (const auto& [y, x] : chosen.back()) {
-      const std::array<TileId, 4> children = children_of({z - 1, x, y});
-      if (std::none_of(children.begin(), children.end(), [&](TileId id) { return is_covered(plan, id); })) continue;
+      const std::array<TileId, 4> children = tiles::children_of({z - 1, x, y});
+      if (std::none_of(children.begin(), children.end(), [&](TileId id) { return tiles::is_covered(plan, id); }))
+        continue;
       for (const TileId child : children) {
         if (plan.grid.has(child)) level.insert({child.y, child.x});
       }
@@ -97,7 +98,7 @@ std::uint64_t block_cost(const PyramidPlan& plan, TileId block) {
 
 std::vector<TileId> find_blocks(const PyramidPlan& plan) {
   std::vector<TileId> blocks;
-  const std::vector<TileSet> chosen = choose_tiles(plan);
+  const std::vector<tiles::TileSet> chosen = tiles::choose_tiles(plan);
   for (const auto& [y, x] : chosen.back()) blocks.push_back({plan.block_level, x, y});
   std::sort(blocks.begin(), blocks.end(), [](TileId a, TileId b) { return place_on_curve(a) < place_on_curve(b); });
   return blocks;

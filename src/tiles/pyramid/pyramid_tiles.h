@@ -9,7 +9,7 @@
 
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Tiles of one level by row, then column.
 using TileSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
@@ -26,4 +26,4 @@ std::array<TileId, 4> children_of(TileId id);
 /// The tiles of each level up to the block level: those that may have heights, their ancestors and all siblings.
 std::vector<TileSet> choose_tiles(const PyramidPlan& plan);
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "tiles/pyramid/larger.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 TileOutput::TileOutput(const PyramidPlan& plan, TileSink& sink, const Run& run)
     : plan_(plan), sink_(sink), run_(run), reporter_(run.progress) {
@@ -94,4 +94,4 @@ void add_report(PyramidReport& report, const PyramidReport& more) {
   }
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -10,7 +10,7 @@
 #include "base/reporter.h"
 #include "scarp/tile.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Adds a report on other tiles of the same pyramid.
 void add_report(PyramidReport& report, const PyramidReport& more);
@@ -38,4 +38,4 @@ class TileOutput {
   PyramidReport report_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -14,7 +14,7 @@
 #include "tiles/water/tile_waters.h"
 #include "tiles/water/water_shapes.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Nodes a side per read.
@@ -158,7 +158,7 @@ class Placing {
 
   DegreeBox covered_;
   bool goes_round_;
-  NodePlaces places_;
+  globe::NodePlaces places_;
 };
 
 tl::unexpected<Error> too_wide(const std::string& name, const char* what) {
@@ -247,4 +247,4 @@ Result<TileWaters> find_tile_waters(const PyramidPlan& plan, const NodeSource& n
   return waters;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

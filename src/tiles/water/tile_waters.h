@@ -16,7 +16,7 @@
 
 #pragma GCC visibility push(default)
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Places are fractional columns and rows of nodes of the finest lattice, counted as in NodeWindow from the grid's
 /// north-western corner. Columns may exceed a turn.
@@ -31,13 +31,21 @@ struct TileRiver {
   std::vector<std::array<double, 3>> course;  ///< heights are above the zero of heights, NaN outside the source
 };
 
+}  // namespace scarp::tiles
+
+namespace scarp {
+
 struct TileWaters {
-  std::vector<TileLake> lakes;  ///< a node in several lakes belongs to the last
-  std::vector<TileRiver> rivers;
+  std::vector<tiles::TileLake> lakes;  ///< a node in several lakes belongs to the last
+  std::vector<tiles::TileRiver> rivers;
   DegreeBox covered = {};     ///< cover of the source: nodes outside have no heights
   TileGrid grid = {};         ///< grid of the lattice
   std::int64_t per_turn = 0;  ///< nodes of the lattice per turn: NodeWindow::per_turn
 };
+
+}  // namespace scarp
+
+namespace scarp::tiles {
 
 /// The sources of water. Coordinates of lines are degrees.
 struct WaterLines {
@@ -87,6 +95,6 @@ class WaterMasks {
   std::vector<Box> boxes_;
 };
 
-}  // namespace scarp
+}  // namespace scarp::tiles
 
 #pragma GCC visibility pop

@@ -10,7 +10,7 @@
 #include "globe/node_places.h"
 #include "tiles/water/tile_waters.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 constexpr int kMaskSide = 256;  ///< texels, as in quantized-mesh
@@ -22,7 +22,7 @@ class MaskPlaces {
  public:
   MaskPlaces(const TileWaters& waters, TileId id) : is_water_(std::size_t{kMaskPlaces} * kMaskPlaces, 0) {
     const DegreeBox box = waters.grid.bounds_of(id);
-    const NodePlaces nodes(waters.grid, waters.per_turn);
+    const globe::NodePlaces nodes(waters.grid, waters.per_turn);
     left_ = nodes.col(box.west);
     per_col_ = kMaskPlaces / (nodes.col(box.east) - left_);
     // Texels are equally spaced in degrees.
@@ -105,7 +105,7 @@ WaterMasks::WaterMasks(const TileWaters& waters) : waters_(&waters) {
 template <class Use>
 void WaterMasks::each_lake(TileId id, const Use& use) const {
   const DegreeBox tile = waters_->grid.bounds_of(id);
-  const NodePlaces nodes(waters_->grid, waters_->per_turn);
+  const globe::NodePlaces nodes(waters_->grid, waters_->per_turn);
   const double west = nodes.col(tile.west), east = nodes.col(tile.east);
   const double north = nodes.row(tile.north), south = nodes.row(tile.south);
   const auto turn = static_cast<double>(waters_->per_turn);
@@ -145,4 +145,4 @@ std::uint64_t WaterMasks::hash(TileId id) const {
   return hash;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -7,7 +7,7 @@
 #include "globe/node_places.h"
 #include "grid/line_marks.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// Points of a river are at most 1 / kStepsPerNode of a node apart.
@@ -23,7 +23,7 @@ void NodesAround::add(double col, double row) {
 }
 
 std::optional<NodeBox> NodesAround::box(const TileWaters& waters) const {
-  const NodePlaces places(waters.grid, waters.per_turn);
+  const globe::NodePlaces places(waters.grid, waters.per_turn);
   const DegreeBox& covered = waters.covered;
   const bool goes_round = covered.east - covered.west >= 360;
   const double left = goes_round ? left_ : std::max(left_, places.col(covered.west)),
@@ -66,8 +66,8 @@ std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters) {
   return box;
 }
 
-std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box) {
-  LineRuns marks(affine_of(box), box.cols, box.rows);
+std::vector<grid::SampleRun> nodes_of(const TileLake& lake, const NodeBox& box) {
+  grid::LineRuns marks(affine_of(box), box.cols, box.rows);
   const std::vector<Line> rings = lines_of(lake);
   marks.add_polygons(rings);
   // Like flatten_lakes(): nodes within rounding of the shore are part of the lake.
@@ -95,4 +95,4 @@ std::vector<RiverNode> nodes_of(const TileRiver& river) {
   return nodes;
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles

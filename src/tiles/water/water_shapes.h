@@ -11,7 +11,7 @@
 #include "scarp/lines.h"
 #include "tiles/water/tile_waters.h"
 
-namespace scarp {
+namespace scarp::tiles {
 
 /// Nodes of a lattice. Columns may exceed a turn.
 struct NodeBox {
@@ -44,7 +44,7 @@ inline std::array<double, 6> affine_of(const NodeBox& box) {
 }
 
 /// The nodes of a lake. Columns and rows are relative to its box.
-std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
+std::vector<grid::SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
 
 struct RiverNode {
   std::int64_t row = 0, col = 0;
@@ -53,4 +53,4 @@ struct RiverNode {
 /// The nodes of a river, sorted by rows, each once, with the lowest height of the river nearby.
 std::vector<RiverNode> nodes_of(const TileRiver& river);
 
-}  // namespace scarp
+}  // namespace scarp::tiles

@@ -12,7 +12,7 @@
 #include "tiles/water/tile_waters.h"
 #include "tiles/water/water_shapes.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
@@ -22,7 +22,7 @@ constexpr double kMostNodesAtOnce = 1024;
 /// The kind of water that claims a node. The greatest claim wins.
 enum class Claim : std::uint8_t { kNone, kRim, kRiver, kLake };
 
-std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -floor_of(-a, b); }
+std::int64_t ceil_of(std::int64_t a, std::int64_t b) { return -globe::floor_of(-a, b); }
 
 /// The effect of water on the nodes of a window.
 class Claims {
@@ -35,14 +35,14 @@ class Claims {
 
   /// Adds a claim on nodes [first, end) in a row of the fine lattice, in any turn.
   void add(std::int64_t row, std::int64_t first, std::int64_t end, Claim claim, float height) {
-    const std::int64_t j = floor_of(row, stride_) - window_.row;
+    const std::int64_t j = globe::floor_of(row, stride_) - window_.row;
     if (row % stride_ != 0 || j < 0 || j >= window_.rows || window_.is_pole(window_.row + j)) return;
     const std::int64_t coarse_turn = window_.per_turn;
     // Columns of the window in each turn that meets them.
     const std::int64_t from = ceil_of(first, stride_), to = ceil_of(end, stride_);
     if (from >= to) return;
     const std::int64_t least = ceil_of(window_.col - to + 1, coarse_turn),
-                       most = floor_of(window_.col + window_.cols - 1 - from, coarse_turn);
+                       most = globe::floor_of(window_.col + window_.cols - 1 - from, coarse_turn);
     for (std::int64_t turn = least; turn <= most; ++turn) {
       const std::int64_t begin = std::max<std::int64_t>(from + turn * coarse_turn - window_.col, 0),
                          stop = std::min<std::int64_t>(to + turn * coarse_turn - window_.col, window_.cols);
@@ -136,7 +136,7 @@ class WateredNodes final : public NodeSource {
   bool has_samples() const override { return source_.has_samples(); }
 
   Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
-    const NodePlaces places(waters_->grid, waters_->per_turn);
+    const globe::NodePlaces places(waters_->grid, waters_->per_turn);
     const double left = places.col(box.west), right = places.col(box.east);
     const double top = places.row(box.north), bottom = places.row(box.south);
     if (right - left > kMostNodesAtOnce || bottom - top > kMostNodesAtOnce) {
@@ -159,8 +159,8 @@ class WateredNodes final : public NodeSource {
     SCARP_RETURN_IF_ERROR(raise(window, raised));
     std::vector<float> changed;
     return source_.visit_samples(box, [&](const SampleRow& row) {
-      const auto [first, end] =
-          range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+      const auto [first, end] = globe::range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude,
+                                                    row.heights.size(), box);
       if (first >= end) return;
       SampleRow part = row;
       part.longitude += row.step_longitude * static_cast<double>(first);
@@ -191,7 +191,7 @@ class WateredNodes final : public NodeSource {
   };
   /// Nodes of lakes and rivers that were read so far.
   struct Kept {
-    std::vector<std::shared_ptr<const std::vector<SampleRun>>> lakes;
+    std::vector<std::shared_ptr<const std::vector<grid::SampleRun>>> lakes;
     std::vector<std::shared_ptr<const std::vector<RiverNode>>> rivers;
   };
 
@@ -223,7 +223,7 @@ class WateredNodes final : public NodeSource {
     const std::int64_t turn = waters_->per_turn, stride = turn / window.per_turn;
     const std::int64_t first = window.col * stride, last = (window.col + window.cols - 1) * stride;
     if (window.row * stride > box.row + box.rows || (window.row + window.rows - 1) * stride < box.row - 1) return false;
-    return ceil_of(first - box.col - box.cols, turn) <= floor_of(last - box.col + 1, turn);
+    return ceil_of(first - box.col - box.cols, turn) <= globe::floor_of(last - box.col + 1, turn);
   }
 
   bool meets_any(const NodeWindow& window) const {
@@ -250,7 +250,7 @@ class WateredNodes final : public NodeSource {
       const auto level = static_cast<float>(lake->level),
                  rim = static_cast<float>(lake->level + WaterOptions().freeboard);
       auto run = std::lower_bound(runs->begin(), runs->end(), claims.first_row() - box.row,
-                                  [](const SampleRun& one, std::int64_t row) { return one.row < row; });
+                                  [](const grid::SampleRun& one, std::int64_t row) { return one.row < row; });
       for (; run != runs->end() && box.row + run->row <= claims.last_row(); ++run) {
         const std::int64_t row = box.row + run->row, begin = box.col + run->begin, end = box.col + run->end;
         claims.add(row, begin, end, Claim::kLake, level);
@@ -295,4 +295,4 @@ std::unique_ptr<NodeSource> make_watered_source(const NodeSource& source, std::s
   return std::make_unique<WateredNodes>(source, std::move(waters), std::move(zero));
 }
 
-}  // namespace scarp
+}  // namespace scarp::tiles
