@@ -224,12 +224,12 @@ mesh::VertexNumbers mesh::sort_for_cache(std::vector<std::uint32_t>& corners, st
 
 #else
 
-std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, FindPlaces, int) {
+std::vector<std::uint32_t> mesh::sort_by_place(std::span<const std::uint32_t> corners, std::size_t, FindPlaces, int) {
   return {corners.begin(), corners.end()};
 }
 
-VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
-  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
+mesh::VertexNumbers mesh::sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
+  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
   for (std::uint32_t& corner : corners) {
     std::uint32_t& id = numbers.ids[corner];
     if (id == kUnused) id = static_cast<std::uint32_t>(numbers.count++);
