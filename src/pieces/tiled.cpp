@@ -380,7 +380,7 @@ Result<std::optional<Tiled>> refine_alone(const grid::Raster& raster, std::span<
   const std::uint64_t vertices = outcome.is_broken_off ? most + 1 : outcome.piece.points.size();
   const std::uint64_t more = outcome.is_broken_off ? room : 0;
   SCARP_RETURN_IF_ERROR(memory.check_mesh(bytes + more, vertices, 1));
-  tin::Assembly assembly(1);
+  tin::Assembly assembly(0);
   assembly.append(outcome.piece);
   std::vector<tin::HalfEdge> seams;
   refine::DomainMesh domain{assembly.finish(seams), true};

@@ -98,8 +98,9 @@ void Assembly::Border::sort() {
 
 template <class Part>
 void Assembly::add_vertices(const Part& part) {
-  const bool has_left = column_ > 0, has_top = !is_first_row_;
+  const bool has_left = column_ > 0, has_top = !is_first_row_, is_alone = below_.empty();
   ids_.clear();
+  ids_.reserve(part.point_count());
   for (std::uint32_t i = 0; i < part.point_count(); ++i) {
     const auto [x, y] = part.point(i);
     Vertex v = kNone;
@@ -110,6 +111,7 @@ void Assembly::add_vertices(const Part& part) {
       tin_.points_.push_back({part.first.x + x, part.first.y + y});
     }
     ids_.push_back(v);
+    if (is_alone) continue;
     if (x == part.cols - 1) right_.vertices.push_back({y, v});
     if (y == part.rows - 1) bottom_.vertices.push_back({x, v});
   }
@@ -119,13 +121,14 @@ template <class Part>
 void Assembly::add_triangles(const Part& part) {
   const auto base = static_cast<HalfEdge>(tin_.corners_.size());
   const auto count = static_cast<HalfEdge>(3 * part.triangle_count());
+  const bool is_alone = below_.empty();
   tin_.corners_.resize(base + count);
   tin_.twins_.resize(base + count);
   for (HalfEdge h = 0; h < count; ++h) {
     const HalfEdge here = base + h, twin = part.twin(h);
     tin_.corners_[here] = ids_[part.corner(h)];
     tin_.twins_[here] = twin == kNone ? kNone : base + twin;
-    if (twin != kNone) continue;
+    if (twin != kNone || is_alone) continue;
     const auto [x, y] = part.point(part.corner(h));
     const auto [x2, y2] = part.point(part.corner(Triangulation::next(h)));
     if (x == 0 && x2 == 0) left_.edges.push_back({std::min(y, y2), here});
@@ -161,6 +164,7 @@ void Assembly::append_part(const Part& part) {
   for (Border* border : {&left_, &top_, &right_, &bottom_}) *border = {};
   add_vertices(part);
   add_triangles(part);
+  if (below_.empty()) return;
   if (column_ > 0) sew(beside_, left_);
   if (!is_first_row_) sew(below_[column_], top_);
   right_.sort();

@@ -40,6 +40,7 @@ class PieceMaker {
 /// one; edges there become ordinary edges, or constrained ones where the domain ends.
 class Assembly {
  public:
+  /// 0 tiles per row: for one piece alone.
   explicit Assembly(std::size_t tiles_per_row) : below_(tiles_per_row) {}
 
   /// REQUIRES: neighbours have the same vertices on their shared border.
