@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms, on names
-of a room outside its namespace, and on reserved words outside their files.
+"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms, on a
+namespace of another room, and on reserved words outside their files.
 
 A room is a folder of src/ (or the passes src/*.cpp, the door include/scarp, the program apps/). ROOMS below is the
 table of docs/design.md, "Rooms and floors": change both together (`--table` prints it as Markdown).
@@ -133,10 +133,11 @@ def judge_namespace(path, line):
     match = re.match(r"namespace scarp(?:::(\w+))?", line)
     if not match:
         return None
-    own = NAMESPACES.get(path.parts[1], path.parts[1])
+    room = path.parts[1] if path.parts[0] == "src" else "session"
+    own = NAMESPACES.get(room, room)
     allowed = {None, own} | ({"gdal"} if path.parts[1:3] == ("io", "gdal") else set())
-    allowed |= {"HWY_NAMESPACE", "detail"} if path.parts[1] == "base" else set()
-    return None if match.group(1) in allowed else f"the names of this room are in scarp::{own}"
+    allowed |= {"HWY_NAMESPACE", "detail"} if room == "base" else set()
+    return None if match.group(1) in allowed else f"the names of this room are in scarp{'::' + own if own else ''}"
 
 
 def room_of_header(header):
@@ -347,7 +348,7 @@ def judge_file(path, tree):
         for pattern, allowed, why in WORDS:
             if re.search(pattern, line) and not any(re.match(place, path.as_posix()) for place in allowed):
                 yield f"{path}:{number}: {line.strip()}: {why}"
-        if path.parts[0] == "src" and (wrong := judge_namespace(path, line)):
+        if path.parts[0] != "include" and (wrong := judge_namespace(path, line)):
             yield f"{path}:{number}: {line}: {wrong}"
         match = INCLUDE.match(line)
         if not match:

@@ -27,20 +27,23 @@ function readRows() {
     }
     const limits = least !== '-inf' && most !== 'inf' ? ` From ${least} to ${most}.` : '';
     const numbers = Number.isFinite(row.choices?.[0]) ? ` One of ${row.choices.join(', ')}.` : '';
-    const byDefault = row.byDefault === undefined || row.byDefault === 'auto' ? '' : ` Default: ${row.byDefault}.`;
-    row.comment = /^.*?\.(?= |$)/.exec(help)[0] + limits + numbers + byDefault;
+    row.default = row.byDefault === undefined || row.byDefault === 'auto' ? '' : ` Default: ${row.byDefault}.`;
+    row.comment = /^.*?\.(?= |$)/.exec(help)[0] + limits + numbers + row.default;
     (rows[command] ??= {})[name] = row;
   }
   return rows;
 }
 
 /// Replaces FromSimplify and FromTile by the types of rows. Fields without a comment get the first sentence of the
-/// help.
+/// help; other comments, the default.
 function declare(text, rows) {
   const types = { flag: 'boolean', number: 'number', count: 'number', file: 'Numbers | null' };
   return text
     .replace(/(?<!\*\/\n)^( +)(\w+)(?=\?: From(Simplify|Tile)\b)/gm, (field, indent, name, from) => {
       return `${indent}/** ${rows[from.toLowerCase()][name].comment} */\n${field}`;
+    })
+    .replace(/(?<! Default: [^\n]*)( \*\/\n +)(\w+)(?=\?: From(Simplify|Tile)\b)/g, (_, end, name, from) => {
+      return rows[from.toLowerCase()][name].default + end + name;
     })
     .replace(/(\w+)\?: From(Simplify|Tile)\b/g, (_, name, from) => {
       const { type, choices } = rows[from.toLowerCase()][name];
@@ -82,7 +85,7 @@ fs.cpSync(`${here}/package`, staged, { recursive: true });
 const rows = readRows();
 fs.writeFileSync(
   `${staged}/settings.js`,
-  `export const ROWS = ${JSON.stringify(rows, (key, value) => (key === 'comment' ? undefined : value))};\n`,
+  `export const ROWS = ${JSON.stringify(rows, (key, value) => (['comment', 'default'].includes(key) ? undefined : value))};\n`,
 );
 for (const name of fs.readdirSync(staged).filter(file => file.endsWith('.d.ts'))) {
   const file = path.join(staged, name);

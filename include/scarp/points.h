@@ -181,13 +181,14 @@ struct PointOptions {
 /// dropped as a duplicate. This holds at the point's given coordinates, for the positions stored in the mesh. Vertices
 /// are points, except free ones (high and max effort, goals for shapes) and corners of a boundary. Fails with kUsage
 /// for no goal; a max_error out of range; a budget too small for the hull, lines or shapes; the objective rms without a
-/// budget or with fast effort; a boundary_length not above 0, or with lines; goals for shapes out of range; a wrong
-/// number of tolerances; tolerances below 0, NaN or without a max_error; the dominant order. Fails with kInput for
-/// lines that meet at different heights (the message names the lines); fewer than 3 places; all places on one line; a
-/// value that is not finite or beyond 1e100; an extent below 1e-100; two points nearer to each other than about 2^-30
-/// of the extent (the message names these points and the far point that makes the extent so large). Fails with kPromise
-/// if float32 positions cannot satisfy the bound, and with kCancelled. Cost: expected O(n log m) for n points, with
-/// boundary_length O(n log n); some 50 to 60 bytes a point in addition to the points themselves.
+/// budget or with fast effort; min_shape out of range or with fast effort; a boundary_length not above 0, or with
+/// lines; goals for shapes out of range; a wrong number of tolerances; tolerances below 0, NaN or without a max_error;
+/// the dominant order. Fails with kInput for lines that meet at different heights (the message names the lines); fewer
+/// than 3 places; all places on one line; a value that is not finite or beyond 1e100; an extent below 1e-100; two
+/// points nearer to each other than about 2^-30 of the extent (the message names these points and the far point that
+/// makes the extent so large). Fails with kPromise if float32 positions cannot satisfy the bound, and with kCancelled.
+/// Cost: expected O(n log m) for n points, with boundary_length O(n log n); some 50 to 60 bytes a point in addition to
+/// the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 }  // namespace scarp

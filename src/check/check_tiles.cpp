@@ -19,7 +19,7 @@
 #include "io/gzip.h"
 #include "scarp/tile_set.h"
 
-namespace scarp {
+namespace scarp::check {
 namespace {
 
 /// Number of tiles whose findings are in memory at once.
@@ -28,7 +28,7 @@ constexpr std::size_t kTilesTogether = 65536;
 /// The facts about a tile before comparison with its neighbours.
 struct TileFindings {
   std::vector<TileFault> faults;
-  std::optional<check::TileEdges> edges;
+  std::optional<TileEdges> edges;
   std::uint64_t triangles = 0;
   double sag = 0;
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -57,19 +57,19 @@ class TilesCheck {
     }
     check_container();
     std::vector<TileFault> faults;
-    check::check_availability(set_, claims_, grid_, faults);
+    check_availability(set_, claims_, grid_, faults);
     add(faults);
     for (std::size_t z = 0; z < check_.levels.size(); ++z) {
       SCARP_RETURN_IF_ERROR(check_level(z));
     }
     if (set_.format() == TileFormat::kGlb) {
       faults.clear();
-      check::check_tileset(claims_, grid_, set_.tiles().size(), low_, high_, options_.nodes, faults);
+      check_tileset(claims_, grid_, set_.tiles().size(), low_, high_, options_.nodes, faults);
       add(faults);
     }
     if (options_.nodes.source != nullptr) {
       faults.clear();
-      SCARP_RETURN_IF_ERROR(check::check_nodes(set_, claims_, options_, grid_, world_, check_, faults));
+      SCARP_RETURN_IF_ERROR(check_nodes(set_, claims_, options_, grid_, world_, check_, faults));
       add(faults);
     }
     std::stable_sort(check_.described.begin(), check_.described.end(),
@@ -99,7 +99,7 @@ class TilesCheck {
     const std::vector<std::uint64_t>& tiles = set_.tiles()[z];
     CheckedLevel& level = check_.levels[z];
     std::vector<TileFault> border_faults;
-    check::BorderWatch borders(set_.format(), grid_, static_cast<int>(z), level, border_faults);
+    BorderWatch borders(set_.format(), grid_, static_cast<int>(z), level, border_faults);
     for (std::size_t first = 0; first < tiles.size(); first += kTilesTogether) {
       const auto some = std::span(tiles).subspan(first, std::min(kTilesTogether, tiles.size() - first));
       SCARP_RETURN_IF_ERROR(check_some(z, some, borders, border_faults));
@@ -109,7 +109,7 @@ class TilesCheck {
     return {};
   }
 
-  Result<void> check_some(std::size_t z, std::span<const std::uint64_t> tiles, check::BorderWatch& borders,
+  Result<void> check_some(std::size_t z, std::span<const std::uint64_t> tiles, BorderWatch& borders,
                           std::vector<TileFault>& border_faults) {
     CheckedLevel& level = check_.levels[z];
     std::vector<TileFindings> found(tiles.size());
@@ -165,32 +165,32 @@ class TilesCheck {
       return refuse(fmt::format("{} cannot be read: {}", tile_name(set_.format(), id), bytes.error().message));
     findings.is_gzip = io::is_gzip(*bytes);
     const auto facts = claims_.facts.find({id.z, id.y, id.x});
-    const auto tile = check::decode_client_tile(set_.format(), *bytes, id, grid_, world_,
-                                                facts == claims_.facts.end() ? nullptr : &facts->second);
+    const auto tile = decode_client_tile(set_.format(), *bytes, id, grid_, world_,
+                                         facts == claims_.facts.end() ? nullptr : &facts->second);
     if (!tile) return refuse(tile.error().message);
     findings.triangles = tile->triangles.size() / 3;
-    check::check_water_mask(*tile, claims_.has_water_mask, findings.faults);
-    check::check_header(*tile, findings.faults);
+    check_water_mask(*tile, claims_.has_water_mask, findings.faults);
+    check_header(*tile, findings.faults);
     // If the header's heights are finite, all heights are numbers.
     if (!std::isfinite(tile->low) || !std::isfinite(tile->high)) return findings;
     const auto [lowest, highest] = std::minmax_element(tile->heights.begin(), tile->heights.end());
     findings.low = *lowest;
     findings.high = *highest;
-    check::check_coverage(*tile, findings.faults);
-    check::check_edge_lists(*tile, findings.faults);
-    check::check_skirt(*tile, world_, findings.faults);
+    check_coverage(*tile, findings.faults);
+    check_edge_lists(*tile, findings.faults);
+    check_skirt(*tile, world_, findings.faults);
     if (tile->is_flat)
-      check::check_land(*tile, grid_, findings.faults);
+      check_land(*tile, grid_, findings.faults);
     else
-      check::check_horizon(*tile, world_, findings.faults);
-    findings.sag = check::measure_sag(*tile, world_);
+      check_horizon(*tile, world_, findings.faults);
+    findings.sag = measure_sag(*tile, world_);
     const std::optional<double>& bound = check_.levels[static_cast<std::size_t>(id.z)].promised_bound;
     if (bound && findings.sag > *bound * (1 + 1e-9) + 1e-6)
       findings.faults.push_back({TileFaultKind::kBound,
                                  fmt::format("{} has flat triangles {:.6g} m below the earth's curve, and {:.6g} m are "
                                              "promised",
                                              tile_name(set_.format(), id), findings.sag, *bound)});
-    findings.edges = check::take_edges(*tile);
+    findings.edges = take_edges(*tile);
     return findings;
   }
 
@@ -198,7 +198,7 @@ class TilesCheck {
   const TileCheckOptions& options_;
   io::SetClaims claims_;
   TileGrid grid_;
-  check::World world_;
+  World world_;
   Reporter reporter_;
   TileCheck check_;
   std::uint64_t tiles_ = 0, done_ = 0;
@@ -207,6 +207,10 @@ class TilesCheck {
 };
 
 }  // namespace
+
+}  // namespace scarp::check
+
+namespace scarp {
 
 const char* name_of(TileFaultKind kind) {
   constexpr const char* kNames[] = {"container", "availability", "file",    "coverage", "edge list",
@@ -222,7 +226,7 @@ std::uint64_t TileCheck::count() const {
 }
 
 Result<TileCheck> check_tiles(const TileSetReader& set, const TileCheckOptions& options) {
-  return TilesCheck(set, options).run();
+  return check::TilesCheck(set, options).run();
 }
 
 }  // namespace scarp

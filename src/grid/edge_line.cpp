@@ -123,17 +123,16 @@ class EdgeLine {
 
 }  // namespace
 
-double grid::chord_error(std::span<const grid::EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b,
-                         std::int32_t i) {
+double grid::chord_error(std::span<const EdgeField> fields, Norm norm, std::int32_t a, std::int32_t b, std::int32_t i) {
   double total = 0;
   for (const auto& [values, scale] : fields) {
-    const double error = std::abs(grid::chord_value(values, a, b, i) - double{values[static_cast<std::size_t>(i)]});
+    const double error = std::abs(chord_value(values, a, b, i) - double{values[static_cast<std::size_t>(i)]});
     total = add_to_norm_of(norm, total, scale * error);
   }
   return total;
 }
 
-std::vector<std::int32_t> grid::simplify_edge(std::span<const grid::EdgeField> fields, Norm norm, double tolerance,
+std::vector<std::int32_t> grid::simplify_edge(std::span<const EdgeField> fields, Norm norm, double tolerance,
                                               std::span<const double> tolerances) {
   return EdgeLine(fields, norm, tolerance, tolerances).find();
 }

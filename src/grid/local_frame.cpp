@@ -48,7 +48,7 @@ void round_pair(double& p, double& q, double reach_p, double reach_q) {
 
 }  // namespace
 
-grid::MetresPerRadian grid::metres_per_radian(const grid::Ellipsoid& ellipsoid, double latitude) {
+grid::MetresPerRadian grid::metres_per_radian(const Ellipsoid& ellipsoid, double latitude) {
   const double flattening = ellipsoid.inverse_flattening > 0 ? 1 / ellipsoid.inverse_flattening : 0;
   const double eccentricity2 = flattening * (2 - flattening);
   const double sine = std::sin(latitude);
@@ -60,7 +60,7 @@ grid::MetresPerRadian grid::metres_per_radian(const grid::Ellipsoid& ellipsoid, 
 
 std::array<double, 6> grid::centred_affine(const std::array<double, 4>& linear, int cols, int rows) {
   auto [x_col, x_row, y_col, y_row] = linear;
-  const double reach_col = grid::centre_reach(cols), reach_row = grid::centre_reach(rows);
+  const double reach_col = centre_reach(cols), reach_row = centre_reach(rows);
   round_pair(x_col, x_row, reach_col, reach_row);
   round_pair(y_col, y_row, reach_col, reach_row);
   const double col = cols / 2, row = rows / 2;
@@ -72,8 +72,8 @@ bool grid::is_degenerate(const std::array<double, 6>& affine) {
   return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(affine[0]) || !std::isfinite(affine[3]);
 }
 
-Result<Frame> grid::local_frame(const std::array<double, 6>& samples, const grid::MetresPerUnit& metres, int cols,
-                                int rows, const std::string& crs) {
+Result<Frame> grid::local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
+                                const std::string& crs) {
   const auto& a = samples;
   const double col = cols / 2, row = rows / 2;
   const double x = a[0] + a[1] * col + a[2] * row, y = a[3] + a[4] * col + a[5] * row;
@@ -86,9 +86,9 @@ Result<Frame> grid::local_frame(const std::array<double, 6>& samples, const grid
   }
   Frame frame;
   frame.kind = Frame::Kind::kLocal;
-  frame.affine = grid::centred_affine(
-      {a[1] * metres.east, a[2] * metres.east, a[4] * metres.north, a[5] * metres.north}, cols, rows);
-  if (grid::is_degenerate(frame.affine)) {
+  frame.affine =
+      centred_affine({a[1] * metres.east, a[2] * metres.east, a[4] * metres.north, a[5] * metres.north}, cols, rows);
+  if (is_degenerate(frame.affine)) {
     return fail(ErrorKind::kUsage, "its cells are too unequal for a local frame in float32; choose the frame 'source'");
   }
   frame.unit_in_metres = crs.empty() ? 0 : 1;
@@ -105,9 +105,9 @@ Result<Frame> grid::cell_frame(double cell, int cols, int rows) {
   frame.kind = Frame::Kind::kLocal;
   // The width is rounded for the longer side, so that cells stay square.
   const int side = std::max(cols, rows);
-  const double width = grid::centred_affine({cell, 0, 0, -cell}, side, side)[1], reach = cell * side;
-  frame.affine = grid::centred_affine({width, 0, 0, -width}, cols, rows);
-  if (!(cell > 0) || grid::is_degenerate(frame.affine) || !(reach < 1e30)) {
+  const double width = centred_affine({cell, 0, 0, -cell}, side, side)[1], reach = cell * side;
+  frame.affine = centred_affine({width, 0, 0, -width}, cols, rows);
+  if (!(cell > 0) || is_degenerate(frame.affine) || !(reach < 1e30)) {
     return fail(ErrorKind::kUsage,
                 fmt::format("a cell size of {} makes no frame: give a positive width that float32 can hold", cell));
   }

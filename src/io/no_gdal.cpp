@@ -70,10 +70,10 @@ Result<PlaneOnGlobe> io::find_plane_on_globe(const RasterInfo& info, const Local
               info.path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
 }
 
-Result<Frame> io::place_lent_raster(const io::LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
+Result<Frame> io::place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
   const std::string& wanted = options.crs;
   const int cols = raster.cols, rows = raster.rows;
-  if (wanted == "grid") return io::grid_or_cells(info.path, cols, rows, options);
+  if (wanted == "grid") return grid_or_cells(info.path, cols, rows, options);
   if (!wanted.empty() && wanted != "local" && wanted != "source") {
     return fail(ErrorKind::kUsage, info.path + ": this build of Scarp knows no CRS such as '" + wanted +
                                        "': it was built without GDAL; ask for the frame 'source', 'local' or 'grid'");
@@ -112,20 +112,20 @@ Result<io::HeightUnit> io::place_lent_points(const ReadPointsOptions& options, P
     points.warnings.push_back(
         "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in metres");
   if (wanted == "source" || (wanted.empty() && !points.is_geographic)) return {};
-  const auto [x, y] = io::middle_of(points);
+  const auto [x, y] = middle_of(points);
   const auto [east, north] = points.is_geographic ? metres_of_unit(y) : std::array{1.0, 1.0};
   if (!(east > 1e-3 * north))
     return fail(ErrorKind::kUsage,
                 fmt::format("{}: the middle of the points lies at {:.9g}, {:.9g}, at or beyond a pole, where no local "
                             "frame exists",
                             points.path, x, y));
-  io::make_local_metres({east, north}, points.crs.empty() ? "degrees" : points.crs, points);
+  make_local_metres({east, north}, points.crs.empty() ? "degrees" : points.crs, points);
   return {};
 }
 
 bool io::can_describe_crs() { return false; }
 
-std::string io::describe_geo_keys(const io::GeoKeys&) { return ""; }
+std::string io::describe_geo_keys(const GeoKeys&) { return ""; }
 
 std::optional<io::CrsDescription> io::describe_crs(const std::string&) { return {}; }
 

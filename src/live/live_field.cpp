@@ -25,6 +25,8 @@
 
 namespace scarp {
 
+namespace {
+
 using live::Area;
 using live::BoundLadder;
 using live::CellBounds;
@@ -35,8 +37,6 @@ using live::enough;
 using live::FieldSamples;
 using live::LevelSearch;
 using live::Patch;
-
-namespace {
 
 Area area_of(SampleAt place, int cols, int rows) {
   return {place.col, place.row, place.col + cols - 1, place.row + rows - 1};
@@ -381,9 +381,8 @@ Result<LiveField> LiveField::create(const HeightField& field, const LiveOptions&
   }
   const BoundLadder& ladder = impl->ladder;
   if (options.level && (*options.level < ladder.lowest() || *options.level > ladder.highest()))
-    return fail(ErrorKind::kUsage, fmt::format("a live field has no level {}: give LiveField::level() of one of the "
-                                               "same size",
-                                               *options.level));
+    return fail(ErrorKind::kUsage,
+                fmt::format("a live field has no level {}: give the level of one of the same size", *options.level));
   Impl::Made made;
   made.level = options.level ? *options.level : first_level(field, ladder, options.max_error);
   made.least = options.level ? 0 : enough(options.max_triangles.value_or(0));

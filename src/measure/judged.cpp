@@ -16,8 +16,6 @@
 namespace scarp::judge {
 namespace {
 
-using judge::ErrorWeigher;
-
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNoBound = std::numeric_limits<float>::infinity();
 

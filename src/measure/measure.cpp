@@ -28,15 +28,8 @@
 #include "measure/space_judge.h"
 #include "measure/topology.h"
 
-namespace scarp {
+namespace scarp::judge {
 namespace {
-
-using judge::Band;
-using judge::BandReport;
-using judge::Histogram;
-using judge::kRounding;
-using judge::ProgressGate;
-using judge::Sum;
 
 Result<void> check_input(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
   if (field.cols < 2 || field.rows < 2 || (field.samples == nullptr && field.source == nullptr)) {
@@ -49,7 +42,7 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
       field.frame.determinant() == 0 || !std::isfinite(field.frame.determinant())) {
     return fail(ErrorKind::kInput, "the height field's frame puts all samples on one line; give it a cell size");
   }
-  SCARP_RETURN_IF_ERROR(judge::check_mesh(mesh));
+  SCARP_RETURN_IF_ERROR(check_mesh(mesh));
   for (const Line& ring :
        options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
     SCARP_RETURN_IF_ERROR(grid::check_line_positions(ring.name, ring.points, options.cutline->affine));
@@ -93,7 +86,7 @@ class Verdict {
     result_.cut_off += report.cut_off;
     result_.nodata_cells_covered += report.nodata_cells_covered;
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
-      const judge::RowSums& row = report.rows[i];
+      const RowSums& row = report.rows[i];
       result_.samples += row.samples;
       error_.add(row.error);
       magnitude_.add(row.magnitude);
@@ -128,7 +121,7 @@ class Verdict {
  private:
   /// Merges the offenders of a triangle in several bands, and of two triangles that share a sample.
   void merge_offenders() {
-    sort_rarely(offenders_, judge::is_worse_of_triangle);
+    sort_rarely(offenders_, is_worse_of_triangle);
     for (std::size_t i = 0; i < offenders_.size(); ++i) {
       if (i == 0 || offenders_[i].triangle != offenders_[i - 1].triangle)
         result_.offenders.push_back(offenders_[i].offender);
@@ -148,7 +141,7 @@ class Verdict {
   Measurement& result_;
   Sum error_, magnitude_, square_;
   double largest_ = -1;
-  std::vector<judge::TriangleOffender> offenders_;
+  std::vector<TriangleOffender> offenders_;
 };
 
 /// The mesh's share of the bound on rounding errors of plain double arithmetic, with a margin.
@@ -162,12 +155,11 @@ double error_guard(const Mesh& mesh) {
 
 /// Sets all results about heights. `keep` selects the values for on_row. Fails with kCancelled if the caller stops, and
 /// if the field's source fails.
-Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
-                           const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
-                           ProgressGate& gate, Measurement& result) {
+Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const Scanner& scanner, const CutRegion* region,
+                           const MeasureOptions& options, Keep keep, ProgressGate& gate, Measurement& result) {
   const bool by_sample = !options.tolerance.empty() || options.tolerance_source != nullptr;
-  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance, options.tolerance_source,
-                             options.collect_above.has_value() || by_sample, region};
+  const Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance, options.tolerance_source,
+                      options.collect_above.has_value() || by_sample, region};
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
@@ -186,7 +178,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
         return;
       }
       scanner.scan(*band);
-      reports[i] = band->finish(options.on_row ? keep : judge::Keep::kNothing);
+      reports[i] = band->finish(options.on_row ? keep : Keep::kNothing);
     });
     for (std::size_t i = 0; i < reports.size(); ++i) {
       SCARP_RETURN_IF_ERROR(reports[i]);
@@ -201,7 +193,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
 /// The triangles judged for heights: all, or a solid's triangles that face up.
 struct Surface {
   std::optional<Array<std::uint32_t>> judged;  ///< ascending; none: all
-  judge::Connections connections;              ///< connections, if requested or needed
+  Connections connections;                     ///< connections, if requested or needed
   bool closed = false;
 
   /// The judged triangles of a mesh of `count` triangles, as a list.
@@ -227,7 +219,7 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
   std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
   // A solid has walls and a bottom. If all triangles face up, edges matter only for the topology.
   if (with_edges || upward < count) {
-    surface.connections = judge::connect(mesh, upward == count);
+    surface.connections = connect(mesh, upward == count);
     surface.closed = surface.connections.edges.open.empty();
   }
   if (!surface.closed) return surface;
@@ -249,13 +241,13 @@ class Judged {
                            bool with_heights = true) {
     Judged judged(field, mesh);
     if (field.frame.space) {
-      SCARP_RETURN_IF_ERROR(judge::check_mesh(mesh));
-      SCARP_TRY(judged.flat_mesh_, judge::bring_to_map(field, mesh));
-      judged.flat_field_ = judge::on_map(field);
+      SCARP_RETURN_IF_ERROR(check_mesh(mesh));
+      SCARP_TRY(judged.flat_mesh_, bring_to_map(field, mesh));
+      judged.flat_field_ = on_map(field);
     }
     SCARP_RETURN_IF_ERROR(check_input(judged.field(), judged.mesh(), options));
     if (!with_heights || !judged.field().frame.is_affine()) return judged;
-    SCARP_TRY(judged.places_, judge::place_on_grid(judged.field(), judged.mesh(), options.run.threads));
+    SCARP_TRY(judged.places_, place_on_grid(judged.field(), judged.mesh(), options.run.threads));
     return judged;
   }
 
@@ -263,19 +255,19 @@ class Judged {
   const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
 
   /// Makes the scanner of the surface's triangles. Called once.
-  std::unique_ptr<judge::Scanner> make_scanner(Surface& surface, double tolerance, int threads) {
+  std::unique_ptr<Scanner> make_scanner(Surface& surface, double tolerance, int threads) {
     const std::size_t count = mesh_.triangle_count();
-    if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, surface.list(count), tolerance);
+    if (field_.frame.transform) return make_frame_scanner(field_, mesh_, surface.list(count), tolerance);
     look_in_space(surface);
     std::optional<std::span<const std::uint32_t>> ids;
     if (surface.judged) ids = surface.list(count);
-    return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
+    return make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
   /// Prepares counting of folds.
   void look_in_space(Surface& surface) {
     if (!flat_mesh_ || space_) return;
-    space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
+    space_ = std::make_unique<SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
   }
 
   /// Samples, in addition to the offenders, that may repair faults other than height errors.
@@ -283,10 +275,10 @@ class Judged {
 
   /// REQUIRES: look_in_space() was called.
   void measure_shape(std::span<const std::uint32_t> ids, int threads, Measurement& result) const {
-    judge::count_faults(mesh(), threads, result);
+    count_faults(mesh(), threads, result);
     if (space_) result.down_facing += space_->folds();
-    if (!flat_mesh_) return judge::measure_angles(mesh_, ids, threads, result);
-    judge::measure_angles(judge::seen_from_above(field_, mesh_), ids, threads, result);
+    if (!flat_mesh_) return measure_angles(mesh_, ids, threads, result);
+    measure_angles(seen_from_above(field_, mesh_), ids, threads, result);
   }
 
  private:
@@ -296,34 +288,33 @@ class Judged {
   const Mesh& mesh_;
   std::optional<HeightField> flat_field_;
   std::optional<Mesh> flat_mesh_;
-  judge::GridPlaces places_;  // in affine frames
-  std::unique_ptr<judge::SpaceJudge> space_;
+  GridPlaces places_;  // in affine frames
+  std::unique_ptr<SpaceJudge> space_;
 };
 
 /// Null without a cutline.
-std::unique_ptr<judge::CutRegion> make_region(const MeasureOptions& options, const HeightField& field) {
+std::unique_ptr<CutRegion> make_region(const MeasureOptions& options, const HeightField& field) {
   if (options.cutline == nullptr) return nullptr;
-  return std::make_unique<judge::CutRegion>(*options.cutline, field.cols, field.rows);
+  return std::make_unique<CutRegion>(*options.cutline, field.cols, field.rows);
 }
 
 /// Sets topology and shape.
-Result<void> judge_topology(const Judged& judged, Surface& surface, const judge::CutRegion* region,
+Result<void> judge_topology(const Judged& judged, Surface& surface, const CutRegion* region,
                             const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
   if (!gate.go_on("topology", 0)) return cancelled();
   const Mesh& mesh = judged.mesh();
-  const judge::EdgeReport& edges = surface.connections.edges;
+  const EdgeReport& edges = surface.connections.edges;
   result.open_edges = edges.open.size();
   result.misoriented_edges = edges.misoriented;
   result.non_manifold_edges = edges.non_manifold;
   result.border_loops = edges.loops;
   const std::span<const std::uint32_t> ids = surface.list(mesh.triangle_count());
   judged.measure_shape(ids, options.run.threads, result);
-  result.t_junctions = judge::count_t_junctions(mesh, surface.connections);
-  SCARP_TRY(result.gaps,
-            judge::count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region));
+  result.t_junctions = count_t_junctions(mesh, surface.connections);
+  SCARP_TRY(result.gaps, count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region));
   if (surface.connections.is_single_layer) return {};
   bool is_stopped = false;
-  result.overlaps = judge::count_overlaps(mesh, ids, options.run.threads, [&](double fraction) {
+  result.overlaps = count_overlaps(mesh, ids, options.run.threads, [&](double fraction) {
     is_stopped = !gate.go_on("topology", fraction);
     return !is_stopped;
   });
@@ -333,29 +324,33 @@ Result<void> judge_topology(const Judged& judged, Surface& surface, const judge:
 
 }  // namespace
 
+}  // namespace scarp::judge
+
+namespace scarp {
+
 Result<Measurement> measure(const HeightField& asked, const Mesh& given, const MeasureOptions& options) try {
-  SCARP_TRY(auto&& judged, Judged::of(asked, given, options));
+  SCARP_TRY(auto&& judged, judge::Judged::of(asked, given, options));
   const HeightField& field = judged.field();
   const Mesh& mesh = judged.mesh();
-  ProgressGate gate(options.run.progress);
+  judge::ProgressGate gate(options.run.progress);
 
   Measurement result;
   result.vertices = mesh.vertex_count();
   result.triangles = mesh.triangle_count();
-  Surface surface = find_surface(mesh, options.topology, options.run.threads);
+  judge::Surface surface = judge::find_surface(mesh, options.topology, options.run.threads);
   result.closed = surface.closed;
 
   const auto scanner = judged.make_scanner(surface, options.coverage_tolerance, options.run.threads);
-  const auto region = make_region(options, field);
+  const auto region = judge::make_region(options, field);
   SCARP_RETURN_IF_ERROR(
-      judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result));
+      judge::judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result));
 
   if (options.collect_above) {
     const std::vector<Offender> more = judged.unfolding();
     result.offenders.insert(result.offenders.end(), more.begin(), more.end());
   }
   if (!options.topology) return result;
-  SCARP_RETURN_IF_ERROR(judge_topology(judged, surface, region.get(), options, gate, result));
+  SCARP_RETURN_IF_ERROR(judge::judge_topology(judged, surface, region.get(), options, gate, result));
   return result;
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
@@ -363,13 +358,14 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
 
 Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
                               Measurement& result) try {
-  SCARP_TRY(auto&& judged, Judged::of(field, mesh, options, false));
-  ProgressGate gate(options.run.progress);
-  Surface surface = find_surface(judged.mesh(), true, options.run.threads);
+  SCARP_TRY(auto&& judged, judge::Judged::of(field, mesh, options, false));
+  judge::ProgressGate gate(options.run.progress);
+  judge::Surface surface = judge::find_surface(judged.mesh(), true, options.run.threads);
   result.closed = surface.closed;
   result.down_facing = result.degenerate = result.overlaps = 0;
   judged.look_in_space(surface);
-  return judge_topology(judged, surface, make_region(options, judged.field()).get(), options, gate, result);
+  return judge::judge_topology(judged, surface, judge::make_region(options, judged.field()).get(), options, gate,
+                               result);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
 }
@@ -380,14 +376,14 @@ Result<void> resample_rows(const HeightField& asked, const Mesh& given,
   MeasureOptions options;
   options.run.threads = threads;
   options.on_row = on_row;
-  SCARP_TRY(auto&& judged, Judged::of(asked, given, options));
+  SCARP_TRY(auto&& judged, judge::Judged::of(asked, given, options));
   const HeightField& field = judged.field();
   const Mesh& mesh = judged.mesh();
-  Surface surface = find_surface(mesh, false, threads);
+  judge::Surface surface = judge::find_surface(mesh, false, threads);
   const auto scanner = judged.make_scanner(surface, options.coverage_tolerance, threads);
-  ProgressGate gate(options.run.progress);
+  judge::ProgressGate gate(options.run.progress);
   Measurement ignored;
-  return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
+  return judge::judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
 } catch (...) {
   return caught(ErrorKind::kInput, "resample the mesh");
 }

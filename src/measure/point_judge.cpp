@@ -44,7 +44,7 @@ std::size_t buckets_for(std::size_t triangles, std::size_t points) {
   return std::max(triangles, std::min(8 * triangles, points));
 }
 
-struct Verdict {
+struct PointVerdict {
   double error = kNone;  ///< NaN: uncovered
   std::uint32_t triangle = 0;
 };
@@ -82,14 +82,14 @@ class Judge {
     explicit Run(const Judge& judge) : judge_(judge) {}
 
     /// Errors near the bound are computed exactly.
-    Verdict judge(std::size_t point, double bound) {
+    PointVerdict judge(std::size_t point, double bound) {
       bound_ = bound;
       const std::size_t source = judge_.source_of(point);
       const double x = judge_.points_.x[source] - judge_.mesh_.origin[0];
       const double y = judge_.points_.y[source] - judge_.mesh_.origin[1];
       const double z = judge_.height_of(point);
       enter(judge_.grid_.col_of(x), judge_.grid_.row_of(y));
-      Verdict verdict;
+      PointVerdict verdict;
       for (const Entry& entry : entries_) {
         std::array<double, 3> weights;
         for (int k = 0; k < 3; ++k) weights[k] = entry.facet.plan.weight(k, x, y);
@@ -158,11 +158,11 @@ class Judge {
     return make_counter_clockwise(facet);
   }
   /// Keeps the larger error; for ties, the lower triangle.
-  static void take(Verdict& verdict, double error, std::uint32_t t) {
+  static void take(PointVerdict& verdict, double error, std::uint32_t t) {
     if (std::abs(error) <= std::abs(verdict.error)) return;
     verdict = {error, t};
   }
-  void judge_beside(double x, double y, double z, Verdict& verdict) const {
+  void judge_beside(double x, double y, double z, PointVerdict& verdict) const {
     double nearest = tolerance_;
     Facet facet;
     for (int row = grid_.row_of(y - tolerance_); row <= grid_.row_of(y + tolerance_); ++row) {
@@ -171,7 +171,7 @@ class Judge {
           get(t, facet);
           const double distance = facet.plan.distance(x, y);
           if (!(distance <= nearest)) continue;
-          const Verdict beside{error_beside(facet, x, y, z, tolerance_), t};
+          const PointVerdict beside{error_beside(facet, x, y, z, tolerance_), t};
           if (distance == nearest && std::abs(beside.error) <= std::abs(verdict.error)) continue;
           nearest = distance;
           verdict = beside;
@@ -333,7 +333,7 @@ Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoin
       const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
       Judge::Run run(judge);
       for (std::size_t point = begin; point < end; ++point) {
-        const Verdict verdict = run.judge(point, bounds.at(judge.source_of(point)));
+        const PointVerdict verdict = run.judge(point, bounds.at(judge.source_of(point)));
         errors[point] = verdict.error;
         if (options.collect_above) triangles[point] = verdict.triangle;
       }

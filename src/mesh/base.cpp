@@ -20,21 +20,18 @@
 #include "mesh/half_edges.h"
 #include "scarp/mesh.h"
 
-namespace scarp {
+namespace scarp::mesh {
 namespace {
 
 class Closing {
  public:
   Closing(Mesh& mesh, double base)
-      : mesh_(mesh),
-        base_(base - mesh.origin[2]),
-        twins_(mesh::build_twins(mesh.triangles)),
-        top_(mesh.triangles.size()) {}
+      : mesh_(mesh), base_(base - mesh.origin[2]), twins_(build_twins(mesh.triangles)), top_(mesh.triangles.size()) {}
 
   void run(bool step_back) {
     split_fans(step_back);
-    const std::vector<std::uint32_t> floor = mesh::build_flat_base(mesh_.positions, mesh_.triangles, twins_);
-    below_.assign(mesh_.vertex_count(), mesh::kNoHalfEdge);
+    const std::vector<std::uint32_t> floor = build_flat_base(mesh_.positions, mesh_.triangles, twins_);
+    below_.assign(mesh_.vertex_count(), kNoHalfEdge);
     is_corner_.assign(mesh_.vertex_count(), false);
     for (const std::uint32_t v : floor) is_corner_[v] = true;
     add_walls();
@@ -48,7 +45,7 @@ class Closing {
   void split_fans(bool step_back) {
     std::vector<bool> has_fan(mesh_.vertex_count(), false);
     for (std::uint32_t h = 0; h < top_; ++h) {
-      if (twins_[h] != mesh::kNoHalfEdge) continue;
+      if (twins_[h] != kNoHalfEdge) continue;
       const std::uint32_t vertex = mesh_.triangles[h];
       if (!has_fan[vertex]) {
         has_fan[vertex] = true;
@@ -57,8 +54,8 @@ class Closing {
       const auto copy = static_cast<std::uint32_t>(mesh_.vertex_count());
       const std::array<double, 2> place = step_back ? step_into(h) : std::array{at(vertex)[0], at(vertex)[1]};
       mesh_.positions.insert(mesh_.positions.end(), {place[0], place[1], double{at(vertex)[2]}});
-      mesh::append_attributes_of(mesh_, vertex);
-      for (std::uint32_t corner = h; corner != mesh::kNoHalfEdge; corner = twins_[mesh::previous_half_edge(corner)]) {
+      append_attributes_of(mesh_, vertex);
+      for (std::uint32_t corner = h; corner != kNoHalfEdge; corner = twins_[previous_half_edge(corner)]) {
         mesh_.triangles[corner] = copy;
       }
     }
@@ -66,8 +63,8 @@ class Closing {
 
   /// The direction from the start of a half-edge to the middle of its triangle.
   std::array<double, 2> step_into(std::uint32_t h) const {
-    const double *from = at(mesh_.triangles[h]), *b = at(mesh_.triangles[mesh::next_half_edge(h)]),
-                 *c = at(mesh_.triangles[mesh::previous_half_edge(h)]);
+    const double *from = at(mesh_.triangles[h]), *b = at(mesh_.triangles[next_half_edge(h)]),
+                 *c = at(mesh_.triangles[previous_half_edge(h)]);
     const double x = (b[0] + c[0]) / 2 - from[0], y = (b[1] + c[1]) / 2 - from[1];
     const auto largest = static_cast<float>(std::max(std::abs(from[0]), std::abs(from[1])));
     constexpr double kUnits = 4;
@@ -78,11 +75,11 @@ class Closing {
 
   /// The vertex below another one.
   std::uint32_t drop(std::uint32_t v) {
-    if (below_[v] == mesh::kNoHalfEdge) {
+    if (below_[v] == kNoHalfEdge) {
       below_[v] = static_cast<std::uint32_t>(mesh_.vertex_count());
       const double x = at(v)[0], y = at(v)[1];
       mesh_.positions.insert(mesh_.positions.end(), {x, y, base_});
-      mesh::append_attributes_of(mesh_, v);
+      append_attributes_of(mesh_, v);
     }
     return below_[v];
   }
@@ -93,13 +90,13 @@ class Closing {
 
   void add_walls() {
     std::vector<std::uint32_t> behind(mesh_.vertex_count(),
-                                      mesh::kNoHalfEdge);  // along the border, the terrain on the left
+                                      kNoHalfEdge);  // along the border, the terrain on the left
     for (std::uint32_t h = 0; h < top_; ++h) {
-      if (twins_[h] == mesh::kNoHalfEdge) behind[mesh_.triangles[h]] = mesh_.triangles[mesh::next_half_edge(h)];
+      if (twins_[h] == kNoHalfEdge) behind[mesh_.triangles[h]] = mesh_.triangles[next_half_edge(h)];
     }
     std::vector<std::uint32_t> run;
     for (std::uint32_t start = 0; start < behind.size(); ++start) {
-      if (behind[start] == mesh::kNoHalfEdge || !is_corner_[start]) continue;
+      if (behind[start] == kNoHalfEdge || !is_corner_[start]) continue;
       run.assign(1, start);
       do {
         run.push_back(behind[run.back()]);
@@ -114,11 +111,10 @@ class Closing {
     const double along[2] = {at(run.back())[0] - at(run.front())[0], at(run.back())[1] - at(run.front())[1]};
     const std::size_t axis = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     const double sign = along[axis] > 0 ? 1 : -1;
-    const auto point = [&](std::uint32_t v) { return mesh::Point2{sign * at(v)[axis], at(v)[2]}; };
+    const auto point = [&](std::uint32_t v) { return Point2{sign * at(v)[axis], at(v)[2]}; };
     stack_.assign(1, low_last);
     const auto take = [&](std::uint32_t v) {
-      while (stack_.size() >= 2 &&
-             mesh::exact_orient(point(stack_[stack_.size() - 2]), point(stack_.back()), point(v)) > 0) {
+      while (stack_.size() >= 2 && exact_orient(point(stack_[stack_.size() - 2]), point(stack_.back()), point(v)) > 0) {
         add(stack_[stack_.size() - 2], stack_.back(), v);
         stack_.pop_back();
       }
@@ -138,6 +134,10 @@ class Closing {
 };
 
 }  // namespace
+
+}  // namespace scarp::mesh
+
+namespace scarp {
 
 bool mesh::is_below_all(const Mesh& mesh, double base) {
   const auto offset = static_cast<float>(base - mesh.origin[2]);

@@ -32,7 +32,7 @@ constexpr std::uint32_t kUnused = mesh::VertexNumbers::kUnused;
 }  // namespace
 
 mesh::VertexNumbers mesh::number_used(std::span<const std::uint32_t> corners, std::size_t vertices) {
-  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
   for (const std::uint32_t v : corners) numbers.ids[v] = 0;
   std::uint32_t count = 0;
   for (std::uint32_t& id : numbers.ids) {
@@ -105,7 +105,7 @@ std::vector<std::uint32_t> curve_places(std::size_t vertices, mesh::FindPlaces f
 
 // Triangles are sorted by their first corner along the curve; triangles of one cell keep their order.
 std::vector<std::uint32_t> mesh::sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
-                                               mesh::FindPlaces find_places, int threads) {
+                                               FindPlaces find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
   const std::size_t count = corners.size() / 3;
   std::size_t side = 1;
@@ -214,7 +214,7 @@ mesh::VertexNumbers mesh::sort_for_cache(std::vector<std::uint32_t>& corners, st
                        [&](std::size_t first, std::size_t end) { task(corners.data() + first, end - first); });
   };
   for_each_chunk(order_chunk);
-  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices)};
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices)};
   numbers.count = number_by_first_use(corners, threads, numbers.ids);
   for_each_chunk([&](std::uint32_t* chunk, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) chunk[i] = numbers.ids[chunk[i]];
@@ -229,7 +229,7 @@ std::vector<std::uint32_t> mesh::sort_by_place(std::span<const std::uint32_t> co
 }
 
 mesh::VertexNumbers mesh::sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
-  mesh::VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
   for (std::uint32_t& corner : corners) {
     std::uint32_t& id = numbers.ids[corner];
     if (id == kUnused) id = static_cast<std::uint32_t>(numbers.count++);

@@ -98,8 +98,7 @@ Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& op
 
 Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
   const bool has_error_for_all = options.goals.max_error || metric::has_budget(options);
-  if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
-    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
+  SCARP_RETURN_IF_ERROR(check_min_shape(options.quality.min_shape));
   SCARP_RETURN_IF_ERROR(check_border(field, options));
   if (options.goals.objective == Objective::kRms && !metric::has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
@@ -131,6 +130,11 @@ Result<void> check_shape_goals(const ShapeGoals& shape, double spacing) {
                     "halved",
                     *shape.max_edge / 2, *shape.min_edge));
   return {};
+}
+
+Result<void> check_min_shape(const std::optional<double>& min_shape) {
+  if (!min_shape || (*min_shape >= 0 && *min_shape <= 0.5)) return {};
+  return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *min_shape));
 }
 
 Result<void> check_max_error(const std::optional<double>& max_error) {

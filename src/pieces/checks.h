@@ -19,6 +19,8 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
 /// Fails with kUsage for goals out of range. `spacing`: between samples.
 Result<void> check_shape_goals(const ShapeGoals& shape, double spacing);
 
+/// Fails unless the value is absent or in 0 … 0.5.
+Result<void> check_min_shape(const std::optional<double>& min_shape);
 /// Fails unless the value is absent or a number of at least 0.
 Result<void> check_max_error(const std::optional<double>& max_error);
 

@@ -30,6 +30,9 @@ Result<void> check_goals(const PointOptions& options) {
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
   if (quality.vertices == Vertices::kFree && !pieces::traits_of(quality.effort).moves_vertices)
     return fail(ErrorKind::kUsage, "free vertices need high or max effort");
+  if (quality.min_shape && quality.effort == Effort::kFast)
+    return fail(ErrorKind::kUsage, "min_shape needs more than fast effort, which only refines");
+  SCARP_RETURN_IF_ERROR(pieces::check_min_shape(quality.min_shape));
   return pieces::check_max_error(options.max_error);
 }
 

@@ -22,7 +22,7 @@ LineConstraints Features::fixed_lines() const { return {}; }
 Result<FittedFeatures> fit_features(const HeightField&, const Features&, const FeatureFitOptions&) { return refuse(); }
 
 Result<lines::ConstrainedMesh> lines::ConstrainedMesh::insert(const grid::Raster&, tin::Triangulation&,
-                                                              const lines::ConstraintGraph&) {
+                                                              const ConstraintGraph&) {
   return refuse();
 }
 void lines::ConstrainedMesh::release_starts(tin::Triangulation&) {}
@@ -37,7 +37,7 @@ Result<lines::FieldLines> lines::prepare_lines(const HeightField&, const LineCon
 HeightField lines::FieldLines::apply(const HeightField& field) const { return field; }
 
 Result<shape::ShapeWork> shape::refine_shapes(const grid::Raster&, tin::Triangulation&, grid::VertexLattice&,
-                                              const shape::ShapeTask&) {
+                                              const ShapeTask&) {
   return refuse();
 }
 Result<shape::ShapeWork> shape::refine_shapes(const grid::SnappedPoints&, std::span<const double>,
@@ -54,6 +54,6 @@ std::optional<fit::ShapeRule> shape::shape_rule(const ShapeGoals&, const Frame&)
 shape::ShapeLosses shape::count_losses(const tin::Triangulation&, std::int32_t, const Frame&, const ShapeGoals&) {
   return {};
 }
-ShapeReport shape::report_shapes(const Mesh&, const ShapeGoals&, const shape::ShapeLosses&) { return {}; }
+ShapeReport shape::report_shapes(const Mesh&, const ShapeGoals&, const ShapeLosses&) { return {}; }
 
 }  // namespace scarp

@@ -142,7 +142,7 @@ struct Soup {
   std::int32_t height() const { return (rows - 1) * grid::kLatticeSteps; }
   geom::Arrangement arrange() const {
     const Point a{0, 0}, b{width(), 0}, c{width(), height()}, d{0, height()};
-    return scarp::geom::arrange(lines, std::vector<geom::Segment>{{a, b}, {b, c}, {c, d}, {d, a}}, width(), height());
+    return geom::arrange(lines, std::vector<geom::Segment>{{a, b}, {b, c}, {c, d}, {d, a}}, width(), height());
   }
 };
 

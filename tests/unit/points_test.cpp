@@ -315,6 +315,15 @@ TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {
   EXPECT_EQ(result->simplified.measurement.samples, 5u);
 }
 
+TEST(point_sets, refuse_a_floor_of_shapes_that_they_cannot_keep) {
+  const PointSet points = set_of({{0, 0, 1}, {1, 0, 2}, {0, 1, 5}});
+  for (const auto& [effort, floor] : {std::pair{Effort::kFast, 0.1}, std::pair{Effort::kNormal, 0.6}}) {
+    const auto result = simplify_points(points, {.max_error = 1, .quality = {.effort = effort, .min_shape = floor}});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  }
+}
+
 TEST(point_sets, too_small_for_arithmetic_are_refused) {
   const auto tiny = simplify_points(set_of({{0, 0, 1}, {1e-320, 0, 2}, {0, 1e-320, 3}}), {.max_error = 0.5});
   EXPECT_TRUE(contains(tiny.error().message, "smaller unit")) << tiny.error().message;

@@ -13,6 +13,7 @@ export interface TilerOptions {
   /** The nodata value, as in Place. */
   nodata?: FromSimplify | null;
   cells?: FromTile;
+  /** The finest level, 0 to 23. Default: the first whose nodes are at most 1.1 cells apart. */
   maxZoom?: FromTile;
   /** Max error of the finest level, in metres, above 0. */
   maxError?: FromTile;

@@ -112,6 +112,7 @@ export interface Work {
 }
 
 export interface Options extends Goals, Work, Place {
+  /** Next sample to insert. With 'greedy', the default effort is 'fast'. */
   order?: FromSimplify;
   outlineTolerance?: FromSimplify;
   normals?: FromSimplify;

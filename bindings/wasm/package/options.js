@@ -177,7 +177,7 @@ export function takeOptions(options, entry) {
   if (options === null || typeof options !== 'object' || isArray(options))
     throw new ScarpError(
       'usage',
-      `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : `a ${typeof options}`}, ` +
+      `the options are ${options === null ? 'null' : isArray(options) ? 'an array' : article(typeof options)}, ` +
         `and no object: ${NEEDS[entry] ?? 'leave them out, or give { name: value }'}`,
     );
   const known = ENTRIES[entry];

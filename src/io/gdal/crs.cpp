@@ -149,7 +149,7 @@ std::optional<io::CrsDescription> io::describe_crs(const std::string& crs) {
   gdal::Session quiet;
   const gdal::Crs known = gdal::find_crs(crs);
   if (!known) return {};
-  io::CrsDescription description;
+  CrsDescription description;
   const char* name = OSRGetName(known.get());
   description.name = name != nullptr ? name : "";
   constexpr std::string_view kEpsg = "EPSG:";

@@ -156,7 +156,7 @@ Result<std::shared_ptr<const io::GlobeImage>> open(const std::string& path, cons
 
 namespace scarp::io {
 
-Result<std::shared_ptr<const io::GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid) try {
+Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic& ellipsoid) try {
   return gdal::open(path, ellipsoid);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);

@@ -18,18 +18,15 @@ MeshWriter encode_ply, encode_2dm, encode_msh;
 MeshReader decode_glb, decode_obj, decode_ply, decode_stl, decode_tin, decode_2dm, decode_vtk, decode_landxml,
     decode_dxf, decode_3mf, decode_msh;
 
-}  // namespace scarp::io
-
-namespace scarp {
 namespace {
 
 /// Wraps a writer without options.
-template <io::PlainWriter* encode>
+template <PlainWriter* encode>
 Result<std::vector<std::uint8_t>> without_options(const Mesh& mesh, const EncodeOptions& /*options*/) {
   return encode(mesh);
 }
 
-constexpr io::MeshFormatRow kRows[] = {
+constexpr MeshFormatRow kRows[] = {
     {.traits = {.format = MeshFormat::kGlb,
                 .name = "glb",
                 .title = "GLB",
@@ -44,8 +41,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_attributes = true,
                 .bytes_per_vertex = 80},
      .mark = "glTF",
-     .write = without_options<io::encode_glb>,
-     .read = io::decode_glb},
+     .write = without_options<encode_glb>,
+     .read = decode_glb},
     {.traits = {.format = MeshFormat::kObj,
                 .name = "obj",
                 .title = "OBJ",
@@ -59,8 +56,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_attributes = true,
                 .holds_prints = true,
                 .bytes_per_vertex = 190},
-     .write = without_options<io::encode_obj>,
-     .read = io::decode_obj},
+     .write = without_options<encode_obj>,
+     .read = decode_obj},
     {.traits = {.format = MeshFormat::kPly,
                 .name = "ply",
                 .title = "PLY",
@@ -72,8 +69,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_attributes = true,
                 .holds_prints = true,
                 .bytes_per_vertex = 100},
-     .write = io::encode_ply,
-     .read = io::decode_ply},
+     .write = encode_ply,
+     .read = decode_ply},
     {.traits = {.format = MeshFormat::kStl,
                 .name = "stl",
                 .title = "STL",
@@ -86,8 +83,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .is_float32 = true,
                 .holds_prints = true,
                 .bytes_per_vertex = 220},
-     .write = without_options<io::encode_stl>,
-     .read = io::decode_stl},
+     .write = without_options<encode_stl>,
+     .read = decode_stl},
     {.traits = {.format = MeshFormat::kTin,
                 .name = "tin",
                 .title = "TIN",
@@ -96,8 +93,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .read_by = "Scape, Terra",
                 .has_projection_file = true,
                 .bytes_per_vertex = 400},
-     .write = without_options<io::encode_tin>,
-     .read = io::decode_tin},
+     .write = without_options<encode_tin>,
+     .read = decode_tin},
     {.traits = {.format = MeshFormat::k2dm,
                 .name = "2dm",
                 .title = "2DM",
@@ -110,8 +107,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_space = false,
                 .counts_in_int32 = true},
      .mark = "MESH2D",
-     .write = io::encode_2dm,
-     .read = io::decode_2dm},
+     .write = encode_2dm,
+     .read = decode_2dm},
     {.traits = {.format = MeshFormat::kVtu,
                 .name = "vtu",
                 .title = "VTU",
@@ -121,8 +118,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_attributes = true,
                 .bytes_per_vertex = 120},
      .mark = "<VTKFile",
-     .write = without_options<io::encode_vtu>,
-     .read = io::decode_vtk},
+     .write = without_options<encode_vtu>,
+     .read = decode_vtk},
     {.traits = {.format = MeshFormat::kVtp,
                 .name = "vtp",
                 .title = "VTP",
@@ -131,8 +128,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .read_by = "ParaView, VTK",
                 .holds_attributes = true,
                 .bytes_per_vertex = 120},
-     .write = without_options<io::encode_vtp>,
-     .read = io::decode_vtk},
+     .write = without_options<encode_vtp>,
+     .read = decode_vtk},
     {.traits = {.format = MeshFormat::kLandXml,
                 .name = "landxml",
                 .title = "LandXML",
@@ -145,8 +142,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_space = false,
                 .counts_in_int32 = true},
      .mark = "<LandXML",
-     .write = without_options<io::encode_landxml>,
-     .read = io::decode_landxml},
+     .write = without_options<encode_landxml>,
+     .read = decode_landxml},
     {.traits = {.format = MeshFormat::kDxf,
                 .name = "dxf",
                 .title = "DXF",
@@ -158,8 +155,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .has_projection_file = true,
                 .holds_space = false,
                 .bytes_per_vertex = 900},
-     .write = without_options<io::encode_dxf>,
-     .read = io::decode_dxf},
+     .write = without_options<encode_dxf>,
+     .read = decode_dxf},
     {.traits = {.format = MeshFormat::kGpkg,
                 .name = "gpkg",
                 .title = "GeoPackage",
@@ -171,7 +168,7 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_space = false,
                 .is_read = false,
                 .bytes_per_vertex = 1200},
-     .write = without_options<io::encode_gpkg>},
+     .write = without_options<encode_gpkg>},
     {.traits = {.format = MeshFormat::k3mf,
                 .name = "3mf",
                 .title = "3MF",
@@ -186,8 +183,8 @@ constexpr io::MeshFormatRow kRows[] = {
                 .holds_solids_only = true,
                 .holds_space = false,
                 .bytes_per_vertex = 400},
-     .write = without_options<io::encode_one_3mf>,
-     .read = io::decode_3mf},
+     .write = without_options<encode_one_3mf>,
+     .read = decode_3mf},
     {.traits = {.format = MeshFormat::kMsh,
                 .name = "msh",
                 .title = "MSH",
@@ -196,13 +193,13 @@ constexpr io::MeshFormatRow kRows[] = {
                 .read_by = "Gmsh, meshio, finite elements",
                 .holds_zones = true},
      .mark = "$MeshFormat",
-     .write = io::encode_msh,
-     .read = io::decode_msh},
+     .write = encode_msh,
+     .read = decode_msh},
 };
 
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kRows); ++k) {
-    const io::MeshFormatRow& row = kRows[k];
+    const MeshFormatRow& row = kRows[k];
     if (static_cast<std::size_t>(row.traits.format) != k || row.traits.is_read != (row.read != nullptr)) return false;
   }
   return true;
@@ -227,24 +224,28 @@ bool has_ending(const MeshFormatTraits& traits, std::string_view ending) {
 /// The extension of a path, or a whole word, in lower case; empty for a path without extension.
 std::string ending_of(const std::string& name_or_path) {
   const std::size_t start = name_or_path.find_last_of("./");
-  if (start == std::string::npos) return io::lowered(name_or_path);
-  return name_or_path[start] == '.' ? io::lowered(name_or_path.substr(start + 1)) : "";
+  if (start == std::string::npos) return lowered(name_or_path);
+  return name_or_path[start] == '.' ? lowered(name_or_path.substr(start + 1)) : "";
 }
 
 }  // namespace
+
+}  // namespace scarp::io
+
+namespace scarp {
 
 std::span<const io::MeshFormatRow> io::mesh_format_rows() { return kRows; }
 
 const io::MeshFormatRow& io::row_of(MeshFormat format) { return kRows[static_cast<std::size_t>(format)]; }
 
-std::span<const MeshFormatTraits* const> mesh_formats() { return kTraits; }
+std::span<const MeshFormatTraits* const> mesh_formats() { return io::kTraits; }
 
 const MeshFormatTraits& traits_of(MeshFormat format) { return io::row_of(format).traits; }
 
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
-  const std::string ending = ending_of(name_or_path);
+  const std::string ending = io::ending_of(name_or_path);
   for (const MeshFormatTraits* traits : mesh_formats()) {
-    if (has_ending(*traits, ending)) return traits->format;
+    if (io::has_ending(*traits, ending)) return traits->format;
   }
   return {};
 }
@@ -253,7 +254,7 @@ std::optional<MeshFormat> find_mesh_file(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   const auto format = find_mesh_format(ending);
   if (!format || !traits_of(*format).is_read) return {};
-  if (ending_of(ending) != traits_of(*format).shared) return format;
+  if (io::ending_of(ending) != traits_of(*format).shared) return format;
   std::vector<char> head(4096);
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));

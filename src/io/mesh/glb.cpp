@@ -23,7 +23,7 @@
 #include "io/mesh/meshopt_codec.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 /// A PNG of one white pixel: texture coordinates require a texture, and this one is a placeholder for the user's.
@@ -37,15 +37,15 @@ bool has_gaps(const Mesh& mesh) {
   return std::any_of(mesh.channels.begin(), mesh.channels.end(), [](float value) { return !std::isfinite(value); });
 }
 
-void store_items(const io::GlbAttribute& attribute, const io::MeshPart& part, std::uint8_t* at) {
+void store_items(const GlbAttribute& attribute, const MeshPart& part, std::uint8_t* at) {
   for (const std::uint32_t v : part.vertices) attribute.store(v, at);
 }
 
-std::vector<io::MeshPart> list_parts(const Mesh& mesh, const GlbOptions& options) {
-  std::vector<io::MeshPart> parts = io::split_mesh(mesh, options.threads);
+std::vector<MeshPart> list_parts(const Mesh& mesh, const GlbOptions& options) {
+  std::vector<MeshPart> parts = split_mesh(mesh, options.threads);
   if (!options.compress) return parts;
   parallel_for(parts.size(), options.threads,
-               [&](std::size_t i) { io::order_for_codec(parts[i].vertices, parts[i].corners); });
+               [&](std::size_t i) { order_for_codec(parts[i].vertices, parts[i].corners); });
   return parts;
 }
 
@@ -61,8 +61,8 @@ class GlbWriter {
   GlbWriter(const Mesh& mesh, const GlbOptions& options)
       : mesh_(mesh),
         options_(options),
-        grid_(options.compress ? io::find_grid(mesh, options.cell) : io::GlbGrid{}),
-        attributes_(io::list_glb_attributes(mesh, grid_, options)),
+        grid_(options.compress ? find_grid(mesh, options.cell) : GlbGrid{}),
+        attributes_(list_glb_attributes(mesh, grid_, options)),
         parts_(list_parts(mesh, options)) {}
 
   Result<std::vector<std::uint8_t>> encode() {
@@ -70,26 +70,26 @@ class GlbWriter {
     describe_asset();
     std::vector<PreparedPart> prepared(parts_.size());
     parallel_for(parts_.size(), options_.threads, [&](std::size_t i) { prepared[i] = prepare(parts_[i]); });
-    io::Json primitives = io::Json::array();
+    Json primitives = Json::array();
     for (std::size_t i = 0; i < parts_.size(); ++i) primitives.push_back(add_part(parts_[i], std::move(prepared[i])));
-    json_["meshes"] = io::Json::array({{{"name", "terrain"}, {"primitives", std::move(primitives)}}});
+    json_["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", std::move(primitives)}}});
     add_material();
     return glb_.assemble(options_.threads);
   }
 
  private:
   std::string find_obstacle() const {
-    if (has_gaps(mesh_) && std::count(mesh_.channels.begin(), mesh_.channels.end(), io::kNoChannelValue) > 0) {
+    if (has_gaps(mesh_) && std::count(mesh_.channels.begin(), mesh_.channels.end(), kNoChannelValue) > 0) {
       return fmt::format(
           "a channel of the mesh has the value {}, which stands for no value in a "
           "GLB file; write PLY instead",
-          io::kNoChannelValue);
+          kNoChannelValue);
     }
     if (mesh_.uvs.empty() && !(options_.base_color.bytes.empty() && options_.normal_map.bytes.empty()))
       return "an image is laid over a mesh by texture coordinates, and the mesh has none";
     if (!options_.compress) return {};
-    if (!io::kHasMeshoptCodec) return "this build compresses no GLB: it has no libmeshoptimizer";
-    if (!io::holds_positions(grid_, mesh_)) {
+    if (!kHasMeshoptCodec) return "this build compresses no GLB: it has no libmeshoptimizer";
+    if (!holds_positions(grid_, mesh_)) {
       return "the mesh's positions are neither float32 nor on the lattice of the cells, so compression would move "
              "them; write it uncompressed";
     }
@@ -100,78 +100,77 @@ class GlbWriter {
     const auto generator = mesh_.metadata.find("generator");
     json_["asset"] = {{"version", "2.0"},
                       {"generator", generator == mesh_.metadata.end() ? "Scarp" : generator->second}};
-    if (!mesh_.metadata.empty()) json_["asset"]["extras"] = io::metadata_to_extras(mesh_.metadata);
+    if (!mesh_.metadata.empty()) json_["asset"]["extras"] = metadata_to_extras(mesh_.metadata);
     std::vector<std::string> extensions;
-    if (options_.compress) extensions = {"KHR_mesh_quantization", io::kMeshoptExtension};
+    if (options_.compress) extensions = {"KHR_mesh_quantization", kMeshoptExtension};
     if (options_.base_color.mime_type == kWebp) extensions.emplace_back(kWebpTexture);
     if (!extensions.empty()) {
       json_["extensionsUsed"] = extensions;
       json_["extensionsRequired"] = extensions;
     }
     json_["scene"] = 0;
-    json_["scenes"] = io::Json::array({{{"nodes", {0}}}});
-    io::Json node = {{"name", "terrain"}, {"mesh", 0}};
-    const std::array<double, 3> origin = io::to_y_up(mesh_.origin[0] + 0.0, mesh_.origin[1], mesh_.origin[2] + 0.0);
+    json_["scenes"] = Json::array({{{"nodes", {0}}}});
+    Json node = {{"name", "terrain"}, {"mesh", 0}};
+    const std::array<double, 3> origin = to_y_up(mesh_.origin[0] + 0.0, mesh_.origin[1], mesh_.origin[2] + 0.0);
     std::array<double, 3> translation{};
     for (std::size_t k = 0; k < 3; ++k) translation[k] = origin[k] + grid_.shift[k];
     if (translation != std::array<double, 3>{}) node["translation"] = translation;
     if (!grid_.is_plain()) node["scale"] = grid_.scale;
-    json_["nodes"] = io::Json::array({node});
+    json_["nodes"] = Json::array({node});
   }
 
-  PreparedPart prepare(const io::MeshPart& part) const {
+  PreparedPart prepare(const MeshPart& part) const {
     PreparedPart prepared;
     find_bounds(part, prepared);
     if (!options_.compress) return prepared;
-    for (const io::GlbAttribute& attribute : attributes_) {
+    for (const GlbAttribute& attribute : attributes_) {
       std::vector<std::uint8_t> items(attribute.stride * part.vertices.size());
       store_items(attribute, part, items.data());
-      prepared.streams.push_back(io::encode_meshopt_attributes(items, attribute.stride));
+      prepared.streams.push_back(encode_meshopt_attributes(items, attribute.stride));
     }
-    prepared.triangles = io::encode_meshopt_triangles(part.corners, part.vertices.size());
+    prepared.triangles = encode_meshopt_triangles(part.corners, part.vertices.size());
     return prepared;
   }
 
-  std::size_t add_items(std::size_t number, const io::MeshPart& part, PreparedPart& prepared) {
-    const io::GlbAttribute& attribute = attributes_[number];
+  std::size_t add_items(std::size_t number, const MeshPart& part, PreparedPart& prepared) {
+    const GlbAttribute& attribute = attributes_[number];
     const std::uint64_t count = part.vertices.size(), size = attribute.stride * count;
     if (!options_.compress) {
-      return glb_.add_view(size, io::kArrayBuffer, 0,
+      return glb_.add_view(size, kArrayBuffer, 0,
                            [&attribute, &part](std::uint8_t* at) { store_items(attribute, part, at); });
     }
-    return glb_.add_packed(std::move(prepared.streams[number]), io::kArrayBuffer, count, attribute.stride,
-                           "ATTRIBUTES");
+    return glb_.add_packed(std::move(prepared.streams[number]), kArrayBuffer, count, attribute.stride, "ATTRIBUTES");
   }
 
-  io::Json add_part(const io::MeshPart& part, PreparedPart prepared) {
+  Json add_part(const MeshPart& part, PreparedPart prepared) {
     constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    io::Json named = io::Json::object();
+    Json named = Json::object();
     for (std::size_t number = 0; number < attributes_.size(); ++number) {
-      const io::GlbAttribute& attribute = attributes_[number];
+      const GlbAttribute& attribute = attributes_[number];
       named[attribute.name] = glb_.accessor_count();
-      io::Json& accessor = glb_.add_accessor(add_items(number, part, prepared), attribute.component,
-                                             part.vertices.size(), kTypes[attribute.width]);
+      Json& accessor = glb_.add_accessor(add_items(number, part, prepared), attribute.component, part.vertices.size(),
+                                         kTypes[attribute.width]);
       if (attribute.is_normalized) accessor["normalized"] = true;
       if (attribute.name != "POSITION") continue;
       accessor["min"] = prepared.low;
       accessor["max"] = prepared.high;
     }
-    io::Json primitive = {{"attributes", named}, {"indices", glb_.accessor_count()}, {"material", 0}, {"mode", 4}};
+    Json primitive = {{"attributes", named}, {"indices", glb_.accessor_count()}, {"material", 0}, {"mode", 4}};
     if (mesh_.channel_count > 0) {
       primitive["extras"]["channels"] = mesh_.channel_count;
-      if (has_gaps(mesh_)) primitive["extras"]["noValue"] = io::kNoChannelValue;
+      if (has_gaps(mesh_)) primitive["extras"]["noValue"] = kNoChannelValue;
     }
     const std::uint64_t corners = part.corners.size();
-    const std::size_t view =
-        options_.compress ? glb_.add_packed(std::move(prepared.triangles), io::kIndexBuffer, corners, 2, "TRIANGLES")
-                          : glb_.add_view(2 * corners, io::kIndexBuffer, 0, [&part](std::uint8_t* at) {
-                              for (const std::uint16_t corner : part.corners) io::store_number(at, corner);
-                            });
-    glb_.add_accessor(view, io::kUint16Component, corners, "SCALAR");
+    const std::size_t view = options_.compress
+                                 ? glb_.add_packed(std::move(prepared.triangles), kIndexBuffer, corners, 2, "TRIANGLES")
+                                 : glb_.add_view(2 * corners, kIndexBuffer, 0, [&part](std::uint8_t* at) {
+                                     for (const std::uint16_t corner : part.corners) store_number(at, corner);
+                                   });
+    glb_.add_accessor(view, kUint16Component, corners, "SCALAR");
     return primitive;
   }
 
-  void find_bounds(const io::MeshPart& part, PreparedPart& prepared) const {
+  void find_bounds(const MeshPart& part, PreparedPart& prepared) const {
     prepared.low.fill(std::numeric_limits<float>::infinity());
     prepared.high.fill(-std::numeric_limits<float>::infinity());
     for (const std::uint32_t v : part.vertices) {
@@ -190,7 +189,7 @@ class GlbWriter {
         glb_.add_view(size, 0, 0, [bytes, size](std::uint8_t* at) { std::memcpy(at, bytes, size); });
     json_["images"].push_back({{"bufferView", view}, {"mimeType", mime_type}});
     const std::size_t source = json_["images"].size() - 1;
-    io::Json texture = io::Json::object();
+    Json texture = Json::object();
     if (mime_type == kWebp) {
       texture["extensions"] = {{kWebpTexture, {{"source", source}}}};
     } else {
@@ -207,14 +206,14 @@ class GlbWriter {
     std::size_t base_texture = 0, normal_texture = 0;
     const bool has_base = !mesh_.uvs.empty() && (!options_.base_color.bytes.empty() || !has_images());
     if (!mesh_.uvs.empty()) {
-      json_["images"] = io::Json::array();
-      json_["textures"] = io::Json::array();
+      json_["images"] = Json::array();
+      json_["textures"] = Json::array();
     }
     if (has_images()) {
       // Clamped, since the image ends at the mesh's border.
       constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
-      json_["samplers"] = io::Json::array(
-          {{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});
+      json_["samplers"] =
+          Json::array({{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});
     }
     if (has_base) {
       const GlbImage& image = options_.base_color;
@@ -227,14 +226,14 @@ class GlbWriter {
     }
     // Colours of vertices and textures are multiplied by the material's.
     const bool is_plain = mesh_.colors.empty() && !has_base;
-    const io::Json base = is_plain ? io::Json{0.47, 0.42, 0.33, 1.0} : io::Json{1.0, 1.0, 1.0, 1.0};
-    io::Json material = {
+    const Json base = is_plain ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
+    Json material = {
         {"name", is_plain ? "earth" : "white"},
         {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
         {"doubleSided", false}};
     if (has_base) material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", base_texture}};
     if (!options_.normal_map.bytes.empty()) material["normalTexture"] = {{"index", normal_texture}};
-    json_["materials"] = io::Json::array({std::move(material)});
+    json_["materials"] = Json::array({std::move(material)});
   }
 
   static constexpr const char* kWebp = "image/webp";
@@ -242,23 +241,27 @@ class GlbWriter {
 
   const Mesh& mesh_;
   const GlbOptions& options_;
-  const io::GlbGrid grid_;
-  const std::vector<io::GlbAttribute> attributes_;
-  const std::vector<io::MeshPart> parts_;
-  io::GlbBuilder glb_;
-  io::Json& json_ = glb_.json;
+  const GlbGrid grid_;
+  const std::vector<GlbAttribute> attributes_;
+  const std::vector<MeshPart> parts_;
+  GlbBuilder glb_;
+  Json& json_ = glb_.json;
 };
 
 }  // namespace
 
-bool can_compress_glb() { return io::kHasMeshoptCodec; }
+Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) { return GlbWriter(mesh, {}).encode(); }
 
-Result<std::vector<std::uint8_t>> io::encode_glb(const Mesh& mesh) { return GlbWriter(mesh, {}).encode(); }
+}  // namespace scarp::io
+
+namespace scarp {
+
+bool can_compress_glb() { return io::kHasMeshoptCodec; }
 
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options) {
   if (std::string why = io::find_unwritable(mesh, true); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
   try {
-    return GlbWriter(mesh, options).encode();
+    return io::GlbWriter(mesh, options).encode();
   } catch (...) {
     return caught(ErrorKind::kInput, "encode the mesh");
   }

@@ -15,31 +15,31 @@
 #include "io/mesh/glb_numbers.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 
 /// A file written by encode_mesh().
 struct Part {
-  io::Json json;
+  Json json;
   std::span<const std::uint8_t> binary;
 
   explicit Part(std::span<const std::uint8_t> bytes) {
-    const std::size_t text = io::load_number<std::uint32_t>(&bytes[kHeader]), begin = kHeader + kChunkHeader;
-    json = io::Json::parse(bytes.begin() + begin, bytes.begin() + static_cast<std::ptrdiff_t>(begin + text));
+    const std::size_t text = load_number<std::uint32_t>(&bytes[kHeader]), begin = kHeader + kChunkHeader;
+    json = Json::parse(bytes.begin() + begin, bytes.begin() + static_cast<std::ptrdiff_t>(begin + text));
     binary = bytes.subspan(begin + text + kChunkHeader);
   }
 };
 
-std::size_t count(const io::Json& json, const char* list) { return json.contains(list) ? json[list].size() : 0; }
+std::size_t count(const Json& json, const char* list) { return json.contains(list) ? json[list].size() : 0; }
 
-void shift(io::Json& object, const char* key, std::size_t by) {
+void shift(Json& object, const char* key, std::size_t by) {
   if (object.contains(key)) object[key] = object[key].get<std::size_t>() + by;
 }
 
 /// In materials and their extensions, "index" refers to a texture.
-void shift_textures(io::Json& value, std::size_t by) {
+void shift_textures(Json& value, std::size_t by) {
   if (value.is_object() && value.contains("index")) shift(value, "index", by);
   if (!value.is_structured()) return;
   for (auto& child : value) shift_textures(child, by);
@@ -51,16 +51,16 @@ class Joining {
   explicit Joining(Part first) : json_(std::move(first.json)), binary_(first.binary.begin(), first.binary.end()) {}
 
   void append(Part part) {
-    io::Json& more = part.json;
+    Json& more = part.json;
     const std::size_t views = count(json_, "bufferViews"), buffers = count(json_, "buffers") - 1;
-    const auto place = [&](io::Json& view) {
+    const auto place = [&](Json& view) {
       if (view["buffer"] != 0) return shift(view, "buffer", buffers);
       view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + binary_.size();
     };
-    for (io::Json& view : more["bufferViews"]) {
+    for (Json& view : more["bufferViews"]) {
       place(view);
       if (!view.contains("extensions")) continue;
-      for (io::Json& extension : view["extensions"]) {
+      for (Json& extension : view["extensions"]) {
         if (extension.contains("buffer")) place(extension);
       }
     }
@@ -68,29 +68,29 @@ class Joining {
       for (std::size_t k = 0; k < count(more, list); ++k) shift(more[list][k], "bufferView", views);
     }
     for (std::size_t k = 0; k < count(more, "textures"); ++k) {
-      io::Json& texture = more["textures"][k];
+      Json& texture = more["textures"][k];
       shift(texture, "source", count(json_, "images"));
       shift(texture, "sampler", count(json_, "samplers"));
       if (!texture.contains("extensions")) continue;
-      for (io::Json& extension : texture["extensions"]) shift(extension, "source", count(json_, "images"));
+      for (Json& extension : texture["extensions"]) shift(extension, "source", count(json_, "images"));
     }
     for (std::size_t k = 0; k < count(more, "materials"); ++k)
       shift_textures(more["materials"][k], count(json_, "textures"));
-    for (io::Json& mesh : more["meshes"]) {
-      for (io::Json& primitive : mesh["primitives"]) {
-        for (io::Json& accessor : primitive["attributes"])
+    for (Json& mesh : more["meshes"]) {
+      for (Json& primitive : mesh["primitives"]) {
+        for (Json& accessor : primitive["attributes"])
           accessor = accessor.get<std::size_t>() + count(json_, "accessors");
         shift(primitive, "indices", count(json_, "accessors"));
         shift(primitive, "material", count(json_, "materials"));
       }
     }
-    for (io::Json& node : more["nodes"]) shift(node, "mesh", count(json_, "meshes"));
+    for (Json& node : more["nodes"]) shift(node, "mesh", count(json_, "meshes"));
     for (const char* list : {"accessors", "bufferViews", "images", "textures", "samplers", "materials", "meshes"}) {
       for (std::size_t k = 0; k < count(more, list); ++k) json_[list].push_back(more[list][k]);
     }
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
       for (std::size_t k = 0; k < count(more, list); ++k) {
-        io::Json& known = json_[list];
+        Json& known = json_[list];
         if (std::find(known.begin(), known.end(), more[list][k]) == known.end()) known.push_back(more[list][k]);
       }
     }
@@ -100,8 +100,8 @@ class Joining {
   }
 
   void make_levels(double ratio) {
-    io::Json& nodes = json_["nodes"];
-    io::Json others = io::Json::array(), coverage = io::Json::array();
+    Json& nodes = json_["nodes"];
+    Json others = Json::array(), coverage = Json::array();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       nodes[k]["name"] = fmt::format("{}_LOD{}", nodes[k].value("name", "terrain"), k);
       if (k > 0) others.push_back(k);
@@ -113,13 +113,13 @@ class Joining {
   }
 
   void show_all() {
-    io::Json& nodes = json_["scenes"][0]["nodes"] = io::Json::array();
+    Json& nodes = json_["scenes"][0]["nodes"] = Json::array();
     for (std::size_t k = 0; k < json_["nodes"].size(); ++k) nodes.push_back(k);
   }
 
   Result<std::vector<std::uint8_t>> finish() {
     json_["buffers"][0]["byteLength"] = binary_.size();
-    std::string text = io::print_json(json_);
+    std::string text = print_json(json_);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t total = kHeader + 2 * kChunkHeader + text.size() + binary_.size();
     if (total > std::numeric_limits<std::uint32_t>::max())
@@ -129,18 +129,18 @@ class Joining {
     std::uint8_t* at = bytes.data();
     constexpr std::uint32_t kMagic = 0x46546C67;
     for (const std::uint32_t word : {kMagic, std::uint32_t{2}, static_cast<std::uint32_t>(total),
-                                     static_cast<std::uint32_t>(text.size()), io::kJsonChunk})
-      io::store_number(at, word);
+                                     static_cast<std::uint32_t>(text.size()), kJsonChunk})
+      store_number(at, word);
     std::memcpy(at, text.data(), text.size());
     at += text.size();
-    io::store_number(at, static_cast<std::uint32_t>(binary_.size()));
-    io::store_number(at, io::kBinaryChunk);
+    store_number(at, static_cast<std::uint32_t>(binary_.size()));
+    store_number(at, kBinaryChunk);
     std::memcpy(at, binary_.data(), binary_.size());
     return bytes;
   }
 
  private:
-  io::Json json_;
+  Json json_;
   std::vector<std::uint8_t> binary_;
 };
 
@@ -152,14 +152,18 @@ Joining join(std::span<const std::vector<std::uint8_t>> files) {
 
 }  // namespace
 
+}  // namespace scarp::io
+
+namespace scarp {
+
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio) {
-  Joining joining = join(levels);
+  io::Joining joining = io::join(levels);
   joining.make_levels(ratio);
   return joining.finish();
 }
 
 Result<std::vector<std::uint8_t>> join_glbs(std::span<const std::vector<std::uint8_t>> files) {
-  Joining joining = join(files);
+  io::Joining joining = io::join(files);
   joining.show_all();
   return joining.finish();
 }

@@ -188,7 +188,7 @@ std::string io::origin_text(const std::array<double, 3>& origin) {
 }
 
 std::optional<std::array<double, 3>> io::parse_origin(std::string_view text) {
-  io::TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   std::array<double, 3> origin{};
   for (double& coordinate : origin) {
     if (!cursor.number(coordinate) || !std::isfinite(coordinate)) return {};

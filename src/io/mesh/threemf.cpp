@@ -24,7 +24,7 @@
 #include "scarp/mesh.h"
 #include "scarp/version.h"
 
-namespace scarp {
+namespace scarp::io {
 namespace {
 
 constexpr std::string_view kModelPart = "3D/3dmodel.model", kTypesPart = "[Content_Types].xml",
@@ -43,9 +43,9 @@ std::vector<std::uint8_t> to_bytes(std::string_view text) { return {text.begin()
 std::string metadata_lines(const Mesh& mesh) {
   std::string lines;
   if (mesh.origin != std::array<double, 3>{})
-    lines += io::ascii_metadata_line(std::string(kOriginName), io::origin_text(mesh.origin)) + "\n";
+    lines += ascii_metadata_line(std::string(kOriginName), origin_text(mesh.origin)) + "\n";
   for (const auto& [key, value] : mesh.metadata) {
-    if (key != kName) lines += io::ascii_metadata_line(key, value) + "\n";
+    if (key != kName) lines += ascii_metadata_line(key, value) + "\n";
   }
   return lines;
 }
@@ -56,7 +56,7 @@ void append_object(const Mesh& mesh, std::size_t id, const std::array<double, 3>
   auto out = std::back_inserter(bytes);
   const auto name = mesh.metadata.find(kName);
   fmt::format_to(out, "<object id=\"{}\" type=\"model\"", id);
-  if (name != mesh.metadata.end()) fmt::format_to(out, " name=\"{}\"", io::with_entities(io::ascii_text(name->second)));
+  if (name != mesh.metadata.end()) fmt::format_to(out, " name=\"{}\"", with_entities(ascii_text(name->second)));
   fmt::format_to(out, "><mesh><vertices>\n");
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     float p[3];
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> make_model(std::span<const Mesh> objects) {
       "<metadata name=\"Application\">Scarp {}</metadata>\n",
       first.metadata.contains(kPlacementName) ? "millimeter" : "meter", version());
   if (const std::string lines = metadata_lines(first); !lines.empty())
-    fmt::format_to(out, "<metadata name=\"{}\">{}</metadata>\n", kMetadata, io::with_entities(lines));
+    fmt::format_to(out, "<metadata name=\"{}\">{}</metadata>\n", kMetadata, with_entities(lines));
   fmt::format_to(out, "<resources>\n");
   for (std::size_t k = 0; k < objects.size(); ++k) append_object(objects[k], k + 1, first.origin, bytes);
   fmt::format_to(out, "</resources>\n<build>");
@@ -110,21 +110,21 @@ class ModelReader {
   std::string read() {
     for (;;) {
       switch (xml_.next()) {
-        case io::XmlReader::Event::kStart:
+        case XmlReader::Event::kStart:
           begin_element();
           break;
-        case io::XmlReader::Event::kEnd:
+        case XmlReader::Event::kEnd:
           if (xml_.name() == "metadata") end_metadata();
           if (xml_.name() == "build") in_build_ = false;
           break;
-        case io::XmlReader::Event::kText:
-          if (is_own_metadata_) metadata_ += io::undo_entities(xml_.text());
+        case XmlReader::Event::kText:
+          if (is_own_metadata_) metadata_ += undo_entities(xml_.text());
           break;
-        case io::XmlReader::Event::kComment:
+        case XmlReader::Event::kComment:
           break;
-        case io::XmlReader::Event::kBroken:
+        case XmlReader::Event::kBroken:
           return fmt::format("line {}: {}", xml_.line(), xml_.complaint());
-        case io::XmlReader::Event::kDone:
+        case XmlReader::Event::kDone:
           return built_ == 0 ? "its model builds no object" : finish();
       }
       if (!why_.empty()) return fmt::format("line {}: {}", xml_.line(), why_);
@@ -161,14 +161,14 @@ class ModelReader {
   void end_metadata() {
     if (!is_own_metadata_) return;
     is_own_metadata_ = false;
-    io::TextCursor cursor({reinterpret_cast<const std::uint8_t*>(metadata_.data()), metadata_.size()});
-    while (!cursor.at_end()) io::parse_metadata_line(cursor.rest_of_line(), mesh.metadata);
+    TextCursor cursor({reinterpret_cast<const std::uint8_t*>(metadata_.data()), metadata_.size()});
+    while (!cursor.at_end()) parse_metadata_line(cursor.rest_of_line(), mesh.metadata);
   }
 
   void read_vertex() {
     for (const char* axis : {"x", "y", "z"}) {
       double value = 0;
-      if (!io::parse_number(xml_.attribute(axis), value) || !std::isfinite(static_cast<float>(value))) {
+      if (!parse_number(xml_.attribute(axis), value) || !std::isfinite(static_cast<float>(value))) {
         why_ = "a vertex needs three finite numbers";
         return;
       }
@@ -179,7 +179,7 @@ class ModelReader {
   void read_triangle() {
     for (const char* corner : {"v1", "v2", "v3"}) {
       std::int64_t v = 0;
-      const bool is_number = io::parse_integer(xml_.attribute(corner), v);
+      const bool is_number = parse_integer(xml_.attribute(corner), v);
       if (!is_number || v < 0 || static_cast<std::uint64_t>(v) >= object_->positions.size() / 3) {
         why_ = "a triangle names a vertex that its object does not have";
         return;
@@ -203,7 +203,7 @@ class ModelReader {
     ++built_;
     Transform m = kIdentity;
     const std::string text = xml_.attribute("transform");
-    io::TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     for (std::size_t k = 0; !text.empty() && k < m.size(); ++k) {
       if (!cursor.number(m[k]) || !std::isfinite(m[k])) {
         why_ = "a transform needs twelve finite numbers";
@@ -226,12 +226,12 @@ class ModelReader {
   std::string finish() {
     const auto origin = mesh.metadata.find(std::string(kOriginName));
     if (origin == mesh.metadata.end()) return {};
-    if (const auto parsed = io::parse_origin(origin->second)) mesh.origin = *parsed;
+    if (const auto parsed = parse_origin(origin->second)) mesh.origin = *parsed;
     mesh.metadata.erase(origin);
     return {};
   }
 
-  io::XmlReader xml_;
+  XmlReader xml_;
   std::map<std::string, Object> objects_;
   Object* object_ = nullptr;
   bool is_own_metadata_ = false, in_build_ = false;
@@ -240,13 +240,13 @@ class ModelReader {
 };
 
 /// The name of the package's root part.
-std::string find_model_part(const io::ZipReader& zip) {
+std::string find_model_part(const ZipReader& zip) {
   const auto links = zip.extract(zip.find(kLinksPart));
   if (!links) return zip.find(kModelPart);
-  io::XmlReader xml(*links);
-  for (auto event = xml.next(); event != io::XmlReader::Event::kDone && event != io::XmlReader::Event::kBroken;
+  XmlReader xml(*links);
+  for (auto event = xml.next(); event != XmlReader::Event::kDone && event != XmlReader::Event::kBroken;
        event = xml.next()) {
-    if (event != io::XmlReader::Event::kStart || xml.attribute("Type") != kModelType) continue;
+    if (event != XmlReader::Event::kStart || xml.attribute("Type") != kModelType) continue;
     const std::string target = xml.attribute("Target");
     return zip.find(target.starts_with("/") ? std::string_view(target).substr(1) : target);
   }
@@ -254,6 +254,22 @@ std::string find_model_part(const io::ZipReader& zip) {
 }
 
 }  // namespace
+
+Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh) { return encode_3mf({&mesh, 1}); }
+
+Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes) {
+  SCARP_TRY(const auto& zip, ZipReader::open(bytes));
+  const std::string part = find_model_part(zip);
+  if (part.empty()) return refuse_to_read("it is an archive without a 3MF model");
+  SCARP_TRY(const auto& model, zip.extract(part));
+  ModelReader reader(model);
+  if (std::string why = reader.read(); !why.empty()) return refuse_to_read(std::move(why));
+  return std::move(reader.mesh);
+}
+
+}  // namespace scarp::io
+
+namespace scarp {
 
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects) try {
   if (objects.empty()) return fail(ErrorKind::kOutput, "a 3MF file needs an object");
@@ -271,25 +287,13 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects) try 
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
       "<Relationship Target=\"/{}\" Id=\"rel0\" Type=\"{}\"/></Relationships>\n",
-      kModelPart, kModelType);
-  const io::ZipEntry entries[] = {{std::string(kTypesPart), to_bytes(kContentTypes)},
-                                  {std::string(kLinksPart), to_bytes(links)},
-                                  {std::string(kModelPart), make_model(objects)}};
+      io::kModelPart, io::kModelType);
+  const io::ZipEntry entries[] = {{std::string(io::kTypesPart), io::to_bytes(io::kContentTypes)},
+                                  {std::string(io::kLinksPart), io::to_bytes(links)},
+                                  {std::string(io::kModelPart), io::make_model(objects)}};
   return io::encode_zip(entries);
 } catch (...) {
   return caught(ErrorKind::kOutput, "encode the solids");
-}
-
-Result<std::vector<std::uint8_t>> io::encode_one_3mf(const Mesh& mesh) { return encode_3mf({&mesh, 1}); }
-
-Result<Mesh> io::decode_3mf(std::span<const std::uint8_t> bytes) {
-  SCARP_TRY(const auto& zip, io::ZipReader::open(bytes));
-  const std::string part = find_model_part(zip);
-  if (part.empty()) return refuse_to_read("it is an archive without a 3MF model");
-  SCARP_TRY(const auto& model, zip.extract(part));
-  ModelReader reader(model);
-  if (std::string why = reader.read(); !why.empty()) return refuse_to_read(std::move(why));
-  return std::move(reader.mesh);
 }
 
 }  // namespace scarp

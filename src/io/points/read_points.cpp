@@ -61,13 +61,13 @@ bool is_plain_text(std::span<const std::uint8_t> head) {
 
 bool io::is_text_of_columns(const std::string& path) {
   std::error_code ignored;
-  const auto name = io::readable_name(path);
+  const auto name = readable_name(path);
   const fs::file_status status = fs::status(name ? *name : path, ignored);
   if (!fs::exists(status) || fs::is_directory(status)) return false;
   if (!fs::is_regular_file(status)) return true;  // a device cannot be read twice
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
   const std::vector<std::uint8_t> head = read_head(path);
-  if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && io::looks_like_columns(head))) return true;
+  if (is_one_of(extension_of(path), kText) || (is_plain_text(head) && looks_like_columns(head))) return true;
   const bool is_copy = name && *name != path;  // copy of a pipe; the pipe's name shows nothing
   return is_copy && is_plain_text(head);
 }
@@ -157,14 +157,14 @@ bool is_las(const std::string& path) {
 
 Result<std::string> io::read_declared_crs(const std::string& path) {
   std::error_code ignored;
-  std::string file = io::projection_path(path);
+  std::string file = projection_path(path);
   if (!fs::exists(file, ignored)) file = fs::path(path).replace_extension(".PRJ").string();
   if (!fs::is_regular_file(path, ignored) || !fs::is_regular_file(file, ignored)) return std::string();
   SCARP_TRY(const auto& bytes, read_file(file));
   std::string text(bytes.begin(), bytes.end());
   text.erase(0, text.find_first_not_of(" \t\r\n"));
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
-  if (text.empty() || (io::can_describe_crs() && !io::describe_crs(text)))
+  if (text.empty() || (can_describe_crs() && !describe_crs(text)))
     return fail(ErrorKind::kInput,
                 file + ": declares no CRS that is known here: write WKT into it, or a code such as EPSG:32633");
   return text;

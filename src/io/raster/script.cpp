@@ -66,7 +66,7 @@ class Said {
 }  // namespace
 
 Result<Script> io::decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols, int rows) {
-  io::TextCursor cursor(bytes);
+  TextCursor cursor(bytes);
   Script script;
   Said said;
   while (!cursor.at_end()) {

@@ -74,7 +74,7 @@ bool io::is_plain_name(std::string_view name) {
 bool io::is_known_name(std::string_view name) {
   constexpr std::string_view kFolder = "subtrees/", kEnding = ".subtree";
   if (name == "layer.json" || name == "tileset.json") return true;
-  return io::is_plain_name(name) && name.substr(0, kFolder.size()) == kFolder && name.size() > kEnding.size() &&
+  return is_plain_name(name) && name.substr(0, kFolder.size()) == kFolder && name.size() > kEnding.size() &&
          name.substr(name.size() - kEnding.size()) == kEnding;
 }
 

@@ -77,7 +77,7 @@ std::string option_of(pieces::Field field, const GivenOptions& given) {
   if ((field == pieces::Field::kCurvedFrame || field == pieces::Field::kSpaceFrame) && given.has(kCrs))
     return fmt::format("{} {}", kCrs, shell_word(*given[kCrs]));
   const OptionTerm option = cli::option_of(field);
-  return option.id != kNone ? name_of(option) : std::string(scarp::pieces::name_of(field));
+  return option.id != kNone ? name_of(option) : std::string(pieces::name_of(field));
 }
 
 Result<void> refuse_first(const GivenOptions& given, const std::vector<pieces::Conflict>& conflicts) {

@@ -45,7 +45,7 @@ std::vector<std::string> words_of(pieces::Field field) {
       break;
   }
   const OptionTerm option = option_of(field);
-  return {option.id != kNone ? name_of(option) : std::string(scarp::pieces::name_of(field))};
+  return {option.id != kNone ? name_of(option) : std::string(pieces::name_of(field))};
 }
 
 std::vector<std::string> words_of(pieces::Fields fields) {

@@ -17,17 +17,16 @@
 #include "tiles/pyramid/tile_output.h"
 #include "tiles/water/tile_waters.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
 /// All nodes in and around a block, read by all threads; nothing if none has a height.
-Result<std::optional<tiles::HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
-                                                   int threads) {
-  if (!tiles::is_covered(plan, block)) return std::optional<tiles::HeldNodes>();
-  const std::int32_t steps = tiles::steps_of(plan, block.z);
-  SCARP_TRY(auto&& nodes,
-            tiles::HeldNodes::read(plan.grid.window_of(block, steps, tiles::normal_reach(steps)), source, threads));
-  if (!nodes.has_heights()) return std::optional<tiles::HeldNodes>();
+Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
+                                            int threads) {
+  if (!is_covered(plan, block)) return std::optional<HeldNodes>();
+  const std::int32_t steps = steps_of(plan, block.z);
+  SCARP_TRY(auto&& nodes, HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads));
+  if (!nodes.has_heights()) return std::optional<HeldNodes>();
   return std::optional(std::move(nodes));
 }
 
@@ -37,7 +36,7 @@ std::uint64_t mixed(std::uint64_t hash, double value) {
 }
 
 /// A hash of the nodes, and of each sample with its place, independent of the order in which the source visits them.
-Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const tiles::HeldNodes& nodes) {
+Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldNodes& nodes) {
   const DegreeBox box = plan.grid.bounds_of(block);
   std::uint64_t sum = nodes.hash();
   auto visited = nodes.visit_samples(box, [&](const SampleRow& row) {
@@ -58,7 +57,7 @@ Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const tiles
 /// Adds the water shapes of masks, which are not in the nodes.
 std::uint64_t with_masks(const PyramidPlan& plan, TileId block, std::uint64_t nodes) {
   if (!plan.has_water_mask || !plan.waters) return nodes;
-  const std::uint64_t shapes = tiles::WaterMasks(*plan.waters).hash(block);
+  const std::uint64_t shapes = WaterMasks(*plan.waters).hash(block);
   return shapes == 0 ? nodes : std::max<std::uint64_t>(nodes * 0xff51afd7ed558ccd + shapes, 1);
 }
 
@@ -76,29 +75,33 @@ std::vector<TileId> tiles_of(TileId block, int deepest) {
 }
 
 /// True for a tile with heights, the block's own, and a required sibling of a tile that may have some.
-bool is_made(const PyramidPlan& plan, TileId id, const tiles::HeldNodes& nodes) {
+bool is_made(const PyramidPlan& plan, TileId id, const HeldNodes& nodes) {
   const auto has_heights = [&](TileId tile) {
-    return nodes.has_heights(plan.grid.window_of(tile, tiles::steps_of(plan, tile.z)));
+    return nodes.has_heights(plan.grid.window_of(tile, steps_of(plan, tile.z)));
   };
-  return tiles::is_wanted(plan, id) && (id.z == plan.block_level || has_heights(id) ||
-                                        (plan.has_siblings && has_heights({id.z - 1, id.x / 2, id.y / 2})));
+  return is_wanted(plan, id) && (id.z == plan.block_level || has_heights(id) ||
+                                 (plan.has_siblings && has_heights({id.z - 1, id.x / 2, id.y / 2})));
 }
 
-Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const tiles::HeldNodes& held,
+Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const HeldNodes& held,
                                             const TileEncoder& encode) {
   if (!is_made(plan, id, held)) return std::optional<KeptTile>();
-  const std::int32_t steps = tiles::steps_of(plan, id.z);
-  SCARP_TRY(const auto& nodes, tiles::TileNodes::read(plan, id, steps, tiles::normal_reach(steps), held));
-  SCARP_TRY(auto&& kept, tiles::make_tile_of(plan, id, nodes, tiles::proof_at_nodes(plan, nodes, held), encode));
+  const std::int32_t steps = steps_of(plan, id.z);
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), held));
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, proof_at_nodes(plan, nodes, held), encode));
   return std::optional(std::move(kept));
 }
 
 }  // namespace
 
+}  // namespace scarp::tiles
+
+namespace scarp {
+
 Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
-  SCARP_TRY(const auto& nodes, read_block(plan, block, source, threads));
-  const auto hash = nodes ? hash_of(plan, block, *nodes) : Result<std::uint64_t>(0);
-  return hash ? with_masks(plan, block, *hash) : hash;
+  SCARP_TRY(const auto& nodes, tiles::read_block(plan, block, source, threads));
+  const auto hash = nodes ? tiles::hash_of(plan, block, *nodes) : Result<std::uint64_t>(0);
+  return hash ? tiles::with_masks(plan, block, *hash) : hash;
 }
 
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
@@ -106,7 +109,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   tiles::TileOutput output(plan, sink, run);
   BlockReport made;
   made.block = block;
-  SCARP_TRY(const auto& read, read_block(plan, block, source, run.threads));
+  SCARP_TRY(const auto& read, tiles::read_block(plan, block, source, run.threads));
   const std::optional<tiles::HeldNodes>& nodes = read;
   if (!nodes) {
     const auto complete = [](TerrainTile& tile) -> Result<void> {
@@ -120,15 +123,15 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
     };
     SCARP_RETURN_IF_ERROR(output.make({block}, make_flat));
     made.report = output.take_report();
-    made.hash = with_masks(plan, block, 0);
+    made.hash = tiles::with_masks(plan, block, 0);
     return made;
   }
-  const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
-  SCARP_RETURN_IF_ERROR(output.make(tiles_of(block, std::min(deepest, plan.max_zoom())), make));
+  const auto make = [&](TileId id, const TileEncoder& encode) { return tiles::make_if_any(plan, id, *nodes, encode); };
+  SCARP_RETURN_IF_ERROR(output.make(tiles::tiles_of(block, std::min(deepest, plan.max_zoom())), make));
   made.report = output.take_report();
   made.report.has_heights = true;
-  SCARP_TRY(const auto& hash, hash_of(plan, block, *nodes));
-  made.hash = with_masks(plan, block, hash);
+  SCARP_TRY(const auto& hash, tiles::hash_of(plan, block, *nodes));
+  made.hash = tiles::with_masks(plan, block, hash);
   if (plan.block_level == 0) return made;
   const std::int32_t steps = tiles::steps_of(plan, block.z);
   SCARP_TRY(const auto& whole, tiles::TileNodes::read(plan, block, steps, 0, *nodes));

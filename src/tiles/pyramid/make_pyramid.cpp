@@ -13,21 +13,21 @@
 #include "tiles/pyramid/pyramid_tiles.h"
 #include "tiles/pyramid/tile_output.h"
 
-namespace scarp {
+namespace scarp::tiles {
 namespace {
 
-Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const tiles::CoarseLevel& below,
+Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below,
                                             const TileEncoder& encode) {
-  const std::int32_t steps = 2 * tiles::kCoarseCells;
-  SCARP_TRY(const auto& nodes, tiles::TileNodes::read(plan, id, steps, tiles::normal_reach(steps), below));
+  const std::int32_t steps = 2 * kCoarseCells;
+  SCARP_TRY(const auto& nodes, TileNodes::read(plan, id, steps, normal_reach(steps), below));
   double source_error = 0;
-  const auto judge = [&](const TerrainTile& made) -> Result<tiles::TileVerdict> {
-    const tiles::CoarseVerdict verdict = tiles::bound_errors(made, plan.grid, below);
+  const auto judge = [&](const TerrainTile& made) -> Result<TileVerdict> {
+    const CoarseVerdict verdict = bound_errors(made, plan.grid, below);
     source_error = verdict.source_error;
-    return tiles::TileVerdict{verdict.node_error, {}};
+    return TileVerdict{verdict.node_error, {}};
   };
   // Land may be between flat nodes.
-  const std::array<TileId, 4> children = tiles::children_of(id);
+  const std::array<TileId, 4> children = children_of(id);
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });
   const auto complete = [&](TerrainTile& tile) -> Result<void> {
@@ -35,25 +35,28 @@ Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, 
     tile.source_error = source_error;
     return {};
   };
-  SCARP_TRY(auto&& kept, tiles::make_tile_of(plan, id, nodes, {judge, complete}, encode));
+  SCARP_TRY(auto&& kept, make_tile_of(plan, id, nodes, {judge, complete}, encode));
   return std::optional(std::move(kept));
 }
 
-tiles::CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles,
-                              const tiles::CoarseLevel& below) {
-  tiles::CoarseLevel level(tiles.front().z, plan.background);
+CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles, const CoarseLevel& below) {
+  CoarseLevel level(tiles.front().z, plan.background);
   for (const TileId id : tiles) {
-    const auto [south_west, south_east, north_west, north_east] = tiles::children_of(id);
-    const std::array<const tiles::CoarseTile*, 4> children{
+    const auto [south_west, south_east, north_west, north_east] = children_of(id);
+    const std::array<const CoarseTile*, 4> children{
         &below.at(north_west.x, north_west.y), &below.at(north_east.x, north_east.y),
         &below.at(south_west.x, south_west.y), &below.at(south_east.x, south_east.y)};
-    tiles::CoarseTile joined = tiles::CoarseTile::join(plan.grid, id, children);
+    CoarseTile joined = CoarseTile::join(plan.grid, id, children);
     if (joined.has_heights) level.add(id.x, id.y, std::move(joined));
   }
   return level;
 }
 
 }  // namespace
+
+}  // namespace scarp::tiles
+
+namespace scarp {
 
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run) {
@@ -74,9 +77,9 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   for (int z = plan.block_level - 1; z >= 0; --z) {
     std::vector<TileId> tiles;
     for (const auto& [y, x] : chosen[static_cast<std::size_t>(z)]) tiles.push_back({z, x, y});
-    SCARP_RETURN_IF_ERROR(
-        output.make(tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); }));
-    below = join_level(plan, tiles, below);
+    SCARP_RETURN_IF_ERROR(output.make(
+        tiles, [&](TileId id, const TileEncoder& encode) { return tiles::make_coarse(plan, id, below, encode); }));
+    below = tiles::join_level(plan, tiles, below);
   }
   tiles::add_report(report, output.take_report());
   return report;

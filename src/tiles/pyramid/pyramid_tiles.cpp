@@ -56,7 +56,7 @@ bool tiles::is_wanted(const PyramidPlan& plan, TileId id) {
   if (!plan.grid.has(id)) return false;
   if (id.z <= plan.block_level || plan.sources.empty()) return true;
   if (!plan.has_siblings) return finest_level(plan, id) >= id.z;
-  const std::array<TileId, 4> siblings = tiles::children_of({id.z - 1, id.x / 2, id.y / 2});
+  const std::array<TileId, 4> siblings = children_of({id.z - 1, id.x / 2, id.y / 2});
   return std::any_of(siblings.begin(), siblings.end(), [&](TileId one) { return finest_level(plan, one) >= id.z; });
 }
 
@@ -69,14 +69,13 @@ std::array<TileId, 4> tiles::children_of(TileId id) {
 }
 
 std::vector<tiles::TileSet> tiles::choose_tiles(const PyramidPlan& plan) {
-  std::vector<tiles::TileSet> chosen(1);
+  std::vector<TileSet> chosen(1);
   for (std::uint32_t x = 0; x < plan.grid.roots(); ++x) chosen.front().insert({0, x});
   for (int z = 1; z <= plan.block_level; ++z) {
-    tiles::TileSet level;
+    TileSet level;
     for (const auto& [y, x] : chosen.back()) {
-      const std::array<TileId, 4> children = tiles::children_of({z - 1, x, y});
-      if (std::none_of(children.begin(), children.end(), [&](TileId id) { return tiles::is_covered(plan, id); }))
-        continue;
+      const std::array<TileId, 4> children = children_of({z - 1, x, y});
+      if (std::none_of(children.begin(), children.end(), [&](TileId id) { return is_covered(plan, id); })) continue;
       for (const TileId child : children) {
         if (plan.grid.has(child)) level.insert({child.y, child.x});
       }

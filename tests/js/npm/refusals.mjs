@@ -140,6 +140,11 @@ const cases = [
     'usage',
     sentence,
   ]),
+  [
+    () => simplifyPointsSync([0, 0, 1, 9, 0, 2, 0, 9, 3], { maxError: 1, effort: 'fast', minShape: 0.1 }),
+    'usage',
+    /minShape needs more than fast effort/,
+  ],
   ...[BigInt64Array, BigUint64Array].map(Kind => [
     () => simplifySync(new Kind(9), 3, 3, { maxError: 1 }),
     'usage',
