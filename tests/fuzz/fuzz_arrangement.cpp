@@ -8,8 +8,8 @@
 
 namespace {
 
-using scarp::Arrangement;
 using scarp::Point;
+using scarp::geom::Arrangement;
 
 constexpr std::size_t kMostBytes = 160;
 constexpr std::int32_t kSize = 64;
@@ -21,7 +21,7 @@ void require(bool holds) {
 /// −32 … 95: a quarter lies outside on each side.
 std::int32_t coordinate(std::uint8_t byte) { return byte % 128 - 32; }
 
-scarp::Segment rigid_segment(std::uint8_t place, std::uint8_t way) {
+scarp::geom::Segment rigid_segment(std::uint8_t place, std::uint8_t way) {
   const std::int32_t x = place % 8 * 8, y = place / 8 % 8 * 8;
   switch (way % 4) {
     case 0:
@@ -72,9 +72,9 @@ void judge(const Arrangement& result) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2 || size > kMostBytes) return 0;
   const std::size_t rigid_count = std::min<std::size_t>(data[0] % 13, (size - 1) / 2);
-  std::vector<scarp::Segment> rigid;
+  std::vector<scarp::geom::Segment> rigid;
   for (std::size_t k = 0; k < rigid_count; ++k) rigid.push_back(rigid_segment(data[1 + 2 * k], data[2 + 2 * k]));
-  scarp::Polylines lines;
+  scarp::geom::Polylines lines;
   std::vector<Point> line;
   for (std::size_t k = 1 + 2 * rigid_count; k + 1 < size; k += 2) {
     line.push_back({coordinate(data[k]), coordinate(data[k + 1])});
@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Arrangement once = arrange(lines, rigid, kSize, kSize);
   judge(once);
 
-  scarp::Polylines again;
+  scarp::geom::Polylines again;
   for (const auto& e : once.edges) {
     if (e.is_line) again.add(std::vector<Point>{once.vertices[e.a], once.vertices[e.b]});
   }

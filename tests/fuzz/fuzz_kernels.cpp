@@ -23,15 +23,15 @@ constexpr std::size_t kPattern = 61;  ///< number of heights from bytes, which t
 
 struct Tile {
   std::vector<float> samples, low, high;
-  scarp::TileView view;
+  scarp::geom::TileView view;
 
   explicit Tile(Bytes& bytes) {
     view.cols = 2 + bytes.below(kMaxSide - 1);
     view.rows = 2 + bytes.below(kMaxSide - 1);
-    view.stride = view.cols + scarp::kTilePadding;
-    const std::int32_t blocks = (view.cols + scarp::kBlock - 1) / scarp::kBlock;
-    view.block_stride = blocks + scarp::kTilePadding;
-    samples.assign(static_cast<std::size_t>(view.stride * (view.rows + scarp::kTilePadding)),
+    view.stride = view.cols + scarp::geom::kTilePadding;
+    const std::int32_t blocks = (view.cols + scarp::geom::kBlock - 1) / scarp::geom::kBlock;
+    view.block_stride = blocks + scarp::geom::kTilePadding;
+    samples.assign(static_cast<std::size_t>(view.stride * (view.rows + scarp::geom::kTilePadding)),
                    std::numeric_limits<float>::quiet_NaN());
     const int levels = bytes.next() % 250 + 1;
     const float step = std::ldexp(1.0F, bytes.next() % 160 - 80), drift = step * static_cast<float>(bytes.next()) / 64;
@@ -46,7 +46,8 @@ struct Tile {
         samples[static_cast<std::size_t>(y * view.stride + x)] = pattern[k] + drift * static_cast<float>(x / 9 + y / 5);
       }
     }
-    low.resize(static_cast<std::size_t>(view.block_stride * ((view.rows + scarp::kBlock - 1) / scarp::kBlock)));
+    low.resize(
+        static_cast<std::size_t>(view.block_stride * ((view.rows + scarp::geom::kBlock - 1) / scarp::geom::kBlock)));
     high.resize(low.size());
     view.samples = samples.data();
     view.block_low = low.data();
@@ -55,11 +56,11 @@ struct Tile {
 
   /// Uses the scalar kernel, the reference.
   void fill_blocks() {
-    const auto all = scarp::available_kernels();
+    const auto all = scarp::geom::available_kernels();
     std::uint64_t nodata = 0;
     const float most = all.back().fill_blocks(view, low.data(), high.data(), nodata);
     const std::vector<float> expected_low = low, expected_high = high;
-    for (const scarp::ScanKernels& kernels : all) {
+    for (const scarp::geom::ScanKernels& kernels : all) {
       std::uint64_t also_nodata = 0;
       require(kernels.fill_blocks(view, low.data(), high.data(), also_nodata) == most && also_nodata == nodata);
       require(low == expected_low && high == expected_high);
@@ -67,17 +68,17 @@ struct Tile {
   }
 };
 
-scarp::Point draw_point(Bytes& bytes, const scarp::TileView& view) {
+scarp::Point draw_point(Bytes& bytes, const scarp::geom::TileView& view) {
   const std::int32_t x = bytes.below(view.cols);
   return {x, bytes.below(view.rows)};
 }
 
-void check_scan(const Tile& tile, double threshold, const std::vector<std::array<scarp::TilePoint, 3>>& triangles,
-                const std::vector<scarp::TilePoint>& hints) {
-  const auto all = scarp::available_kernels();
-  std::vector<scarp::ScanHit> expected(triangles.size()), hits(triangles.size());
+void check_scan(const Tile& tile, double threshold, const std::vector<std::array<scarp::geom::TilePoint, 3>>& triangles,
+                const std::vector<scarp::geom::TilePoint>& hints) {
+  const auto all = scarp::geom::available_kernels();
+  std::vector<scarp::geom::ScanHit> expected(triangles.size()), hits(triangles.size());
   all.back().scan(tile.view, threshold, triangles, {}, expected.data());
-  for (const scarp::ScanKernels& kernels : all) {
+  for (const scarp::geom::ScanKernels& kernels : all) {
     kernels.scan(tile.view, threshold, triangles, hints, hits.data());
     for (std::size_t i = 0; i < hits.size(); ++i) {
       require(std::memcmp(&hits[i].error, &expected[i].error, sizeof(float)) == 0);
@@ -93,20 +94,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Tile tile(bytes);
   tile.fill_blocks();
   const double threshold = std::ldexp(bytes.next(), bytes.next() % 160 - 88);
-  std::vector<scarp::TilePoint> hints(bytes.next() % 8);
-  for (scarp::TilePoint& hint : hints) {
+  std::vector<scarp::geom::TilePoint> hints(bytes.next() % 8);
+  for (scarp::geom::TilePoint& hint : hints) {
     const scarp::Point p = draw_point(bytes, tile.view);
-    hint = scarp::tile_point(p.x, p.y);
+    hint = scarp::geom::tile_point(p.x, p.y);
   }
-  std::vector<std::array<scarp::TilePoint, 3>> triangles;
+  std::vector<std::array<scarp::geom::TilePoint, 3>> triangles;
   while (bytes.left() > 0 && triangles.size() < 50) {
     std::array<scarp::Point, 3> p{draw_point(bytes, tile.view), draw_point(bytes, tile.view),
                                   draw_point(bytes, tile.view)};
     if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
-    std::array<scarp::TilePoint, 3> corners{};
+    std::array<scarp::geom::TilePoint, 3> corners{};
     bool valid = orient(p[0], p[1], p[2]) > 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = scarp::tile_point(p[i].x, p[i].y);
+      corners[i] = scarp::geom::tile_point(p[i].x, p[i].y);
       valid = valid && !std::isnan(tile.view.at(corners[i]));
     }
     if (valid) triangles.push_back(corners);

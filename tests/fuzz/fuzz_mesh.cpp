@@ -8,7 +8,7 @@
 namespace {
 
 void read_as_points(std::span<const std::uint8_t> bytes) {
-  const auto points = scarp::read_landxml_points(bytes, "fuzz.xml", {}, "");
+  const auto points = scarp::io::read_landxml_points(bytes, "fuzz.xml", {}, "");
   if (!points) {
     if (points.error().message.empty()) std::abort();
     return;

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.run.threads = 1;
   const auto policy = static_cast<scarp::DuplicatePolicy>(data[1] / 2 % 5);
   options.duplicates = policy;
-  const auto points = scarp::decode_columns({data + 2, size - 2}, "fuzz.csv", {});
+  const auto points = scarp::io::decode_columns({data + 2, size - 2}, "fuzz.csv", {});
   if (!points) {
     require(points.error().kind == scarp::ErrorKind::kInput || points.error().kind == scarp::ErrorKind::kUsage);
     require(points.error().message.find('\n') == std::string::npos);

@@ -4,7 +4,7 @@
 #include "io/raster/script.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto steps = scarp::decode_script({data, size}, "fuzz.txt", 100, 70);
+  const auto steps = scarp::io::decode_script({data, size}, "fuzz.txt", 100, 70);
   if (!steps) {
     const auto& error = steps.error();
     if (error.kind != scarp::ErrorKind::kInput || error.message.find('\n') != std::string::npos) std::abort();
