@@ -48,7 +48,7 @@ struct LiveOptions {
   /// with tolerances. DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   /// LiveField::level() of another field of the same size. Equal samples then have equal meshes, and the first search
-  /// for the budget is omitted, unless the mesh exceeds the budget. DEFAULT: found from the heights.
+  /// for the budget is omitted, unless the mesh exceeds the budget. Needs a budget. DEFAULT: found from the heights.
   std::optional<std::int64_t> level = std::nullopt;
   /// The norm over heights and channels, as Goals::norm, for fields with channels.
   Norm norm = Norm::kSum;

@@ -57,6 +57,7 @@ Result<void> check_field(const HeightField& field, const LiveOptions& options, s
   if (options.effort != Effort::kFast && options.effort != Effort::kNormal && options.effort != Effort::kHigh)
     return refuse("has the efforts fast, normal and high; max takes seconds for a cell");
   if (options.max_triangles == 0) return refuse("needs a budget of at least 1 triangle");
+  if (options.level && !options.max_triangles) return refuse("has a level only with a budget: omit the level");
   constexpr int kLeast = 8, kMost = 254;
   if (options.cell != 0 && (options.cell < kLeast || options.cell > kMost))
     return refuse(fmt::format("has cells of {} to {} samples, not {}", kLeast, kMost, options.cell));

@@ -48,6 +48,7 @@ TEST(live_field, refuses_what_it_cannot_follow) {
   EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 9}, 3500), HasSubstr("a budget or tolerances"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 0}), HasSubstr("a budget of at least 1"));
   EXPECT_THAT(error_of(field, {.max_error = 1, .max_triangles = 900, .level = 1'000'000'000}), HasSubstr("no level"));
+  EXPECT_THAT(error_of(field, {.max_error = 1, .level = 0}), HasSubstr("only with a budget"));
   field.sample_rounding = 2;
   EXPECT_THAT(error_of(field, {.max_error = 1}), HasSubstr("max error of at least 2, the rounding"));
   field.sample_rounding = 0;
