@@ -30,7 +30,7 @@ bool is_in_circle(const std::array<geom::TilePoint, 3>& corners, double x, doubl
 }  // namespace
 
 void TileMesh::reset(std::int32_t cols, std::int32_t rows) {
-  assert(cols >= 2 && rows >= 2 && cols <= kMaxTileSide && rows <= kMaxTileSide);
+  assert(cols >= 2 && rows >= 2 && cols <= geom::kMaxTileSide && rows <= geom::kMaxTileSide);
   const geom::TilePoint a = geom::tile_point(0, 0), b = geom::tile_point(cols - 1, 0),
                         c = geom::tile_point(cols - 1, rows - 1), d = geom::tile_point(0, rows - 1);
   records_.resize(2);
