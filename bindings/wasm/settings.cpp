@@ -41,9 +41,6 @@ static_assert(scarp::Vertices::kSamples < scarp::Vertices::kFree && scarp::Order
 constexpr Setting kOfTile[] = {{"cells", kCells},     {"maxZoom", kZoom},  {"maxError", kMaxError},
                                {"quality", kQuality}, {"effort", kEffort}, {"background", kBackground}};
 
-/// In the order of OptionType.
-constexpr const char* kTypes[] = {"flag", "number", "count", "text", "choice", "file"};
-
 void print(Commands command, std::span<const Setting> settings) {
   for (const Setting& setting : settings) {
     const OptionRow* const found = find_option(command, setting.id);
@@ -51,9 +48,8 @@ void print(Commands command, std::span<const Setting> settings) {
     const OptionRow& row = *found;
     auto choices = row.list_choices();
     if (setting.is_reversed) std::reverse(choices.begin(), choices.end());
-    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", command_name(command), setting.name,
-               kTypes[static_cast<int>(row.type)], fmt::join(choices, " "), row.least, row.above, row.most, row.range,
-               row.by_default, row.help);
+    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", command_name(command), setting.name, type_name(row.type),
+               fmt::join(choices, " "), row.least, row.above, row.most, row.range, row.by_default, row.help);
   }
 }
 

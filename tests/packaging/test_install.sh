@@ -119,4 +119,8 @@ if cmake -S "$source_tree" -B "$scratch/illegal" -DSCARP_BUILD_APPS=ON -DSCARP_W
   fail "SCARP_BUILD_APPS=ON with SCARP_WITH_GDAL=OFF was configured"
 fi
 tr -s ' \n' ' ' <"$scratch/illegal.log" | grep -q "SCARP_BUILD_APPS needs SCARP_WITH_GDAL=ON" || fail "no sentence for illegal options"
+if cmake -S "$source_tree" -B "$scratch/illegal" -DSCARP_BUILD_APPS=ON -DSCARP_WITH_GDAL=ON -DSCARP_WITH_TILES=OFF >"$scratch/illegal.log" 2>&1; then
+  fail "SCARP_BUILD_APPS=ON with SCARP_WITH_TILES=OFF was configured"
+fi
+tr -s ' \n' ' ' <"$scratch/illegal.log" | grep -q "SCARP_WITH_TILES=OFF needs SCARP_BUILD_APPS=OFF" || fail "no sentence for a program without tiles"
 echo "installed, found and used"

@@ -115,27 +115,6 @@ std::string list_briefly(const std::vector<const OptionRow*>& rows) {
   return arguments + goals + "\nMost used (all: --help-all):\n" + others;
 }
 
-const char* type_name(OptionType type) {
-  switch (type) {
-    case OptionType::kFlag:
-      return "flag";
-    case OptionType::kNumber:
-      return "number";
-    case OptionType::kCount:
-      return "count";
-    case OptionType::kText:
-      return "text";
-    case OptionType::kChoice:
-      return "choice";
-    case OptionType::kInputFile:
-    case OptionType::kOutputFile:
-      return "file";
-    case OptionType::kFolder:
-      break;
-  }
-  return "folder";
-}
-
 nlohmann::ordered_json describe_option(const OptionRow& row, const CommandRow& command) {
   const auto or_null = [](const char* text) { return text[0] != 0 ? nlohmann::ordered_json(text) : nullptr; };
   const GroupRow& group = *std::find_if(group_rows().begin(), group_rows().end(),

@@ -117,6 +117,27 @@ const CommandRow* find_command(std::string_view name) {
   return nullptr;
 }
 
+const char* type_name(OptionType type) {
+  switch (type) {
+    case OptionType::kFlag:
+      return "flag";
+    case OptionType::kNumber:
+      return "number";
+    case OptionType::kCount:
+      return "count";
+    case OptionType::kText:
+      return "text";
+    case OptionType::kChoice:
+      return "choice";
+    case OptionType::kInputFile:
+    case OptionType::kOutputFile:
+      return "file";
+    case OptionType::kFolder:
+      break;
+  }
+  return "folder";
+}
+
 const char* command_name(Commands command) {
   for (const CommandRow& row : command_rows()) {
     if (row.command == command) return row.name;

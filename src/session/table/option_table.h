@@ -280,6 +280,8 @@ const CommandRow* find_command(std::string_view name);
 std::string name_of(const OptionTerm& term);
 /// "tile-plan".
 const char* command_name(Commands command);
+/// The word for the type in `scarp help --json`.
+const char* type_name(OptionType type);
 /// The option's name in messages: "--max-error", "--cutline inset".
 const std::string& name_of(OptionId id);
 
