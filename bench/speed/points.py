@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Times whole runs on points against runs on a raster of as many samples, and writes bench/speed/points.csv.
 
-usage: bench/speed/points.py --bin BUILD/bin [--peer BINARY] [--samples N]     needs numpy
+usage: bench/speed/points.py --bin BUILD/bin [--peer BINARY] [--samples N] [--memory SIZE]     needs numpy
 
 The points lie at random places of a fractal raster, at its bilinear heights, in a LAS file; the goal is 1 % of the
 relief, on one thread. `--peer`: an earlier build of the program, in the same rounds.
+`--memory`: instead, points in parts within this limit against points in memory, on all threads, one run each, to
+bench/speed/points_memory.csv.
 """
 import csv
+import json
+import multiprocessing
 import pathlib
 import struct
 import sys
@@ -41,19 +45,44 @@ def write_las(heights, count, path):
     path.write_bytes(bytes(head) + records.tobytes())
 
 
+def make_inputs(program, side, raster, points):
+    call([program, "generate", "fractal", side, side, raster, "--range", 60000, "-q"])
+    _, heights = raster.read_bytes().split(b"65535\n", 1)
+    heights = numpy.frombuffer(heights, ">u2").reshape(side, side) / 10
+    write_las(heights, side * side, points)
+
+
+def compare_parts(program, points, limit, folder):
+    with open(HERE / "points_memory.csv", "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["points", "effort", "memory", "triangles", "wall_s", "cpu_s", "peak_MB"])
+        for effort in ("fast", "normal"):
+            for memory in ("", limit):
+                report = folder / "report.json"
+                command = [program, "simplify", points, folder / "out.ply", "-e", "1%", "--effort", effort, "--report", report, "-q",
+                           "--overwrite"] + (["--memory", memory] if memory else [])
+                run, made = measure_process(command), json.loads(report.read_text())
+                table.writerow([made["input"]["points"], effort, memory or "no limit", made["triangles"], f"{run['wall']:.0f}",
+                                f"{run['cpu']:.0f}", f"{run['peak'] / 1e6:.0f}"])
+    print((HERE / "points_memory.csv").read_text(), end="")
+
+
 def main():
     parser = arguments_of(__doc__)
     parser.add_argument("--peer", type=pathlib.Path)
     parser.add_argument("--samples", type=int, default=10_000_000)
+    parser.add_argument("--memory")
     arguments = parser.parse_args()
     programs = {"scarp": arguments.bin / "scarp"} | ({"peer": arguments.peer} if arguments.peer else {})
     with tempfile.TemporaryDirectory() as folder:
         raster, points = pathlib.Path(folder) / "field.pgm", pathlib.Path(folder) / "field.las"
         side = round(arguments.samples**0.5)
-        call([programs["scarp"], "generate", "fractal", side, side, raster, "--range", 60000, "-q"])
-        _, heights = raster.read_bytes().split(b"65535\n", 1)
-        heights = numpy.frombuffer(heights, ">u2").reshape(side, side) / 10
-        write_las(heights, side * side, points)
+        # In a process of its own: the kernel counts the memory of this one as that of the runs.
+        maker = multiprocessing.Process(target=make_inputs, args=(programs["scarp"], side, raster, points))
+        maker.start()
+        maker.join()
+        if arguments.memory:
+            return compare_parts(programs["scarp"], points, arguments.memory, pathlib.Path(folder))
         runs = {}
         for name, program in programs.items():
             for source in (raster, points):

@@ -415,6 +415,7 @@ struct PointSet {
   std::uint64_t without_height = 0;  ///< points omitted by ReadPointsOptions::nodata
   std::uint64_t spikes = 0;          ///< points omitted by drop_spikes()
   std::uint64_t outside = 0;         ///< points omitted by ReadPointsOptions::extent
+  std::uint64_t added = 0;           ///< last points, which cut_to_boundary() added; errors do not count them
   bool is_geographic = false;        ///< true if x and y of lent points are degrees, without a CRS known to GDAL
   std::optional<LasFacts> las = {};  ///< facts about a LAS or LAZ file
 

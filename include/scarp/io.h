@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/options.h"
+#include "scarp/point_blocks.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
 
@@ -436,6 +438,20 @@ struct ReadPointsOptions {
 /// a height (the message names the line or feature), polygons, a layer with neither points nor lines, and a damaged or
 /// truncated LAS file.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
+
+struct SpooledPoints {
+  PointSet facts;                ///< facts about the points, and those with the least and largest x, y and z
+  std::uint64_t duplicates = 0;  ///< points dropped because another one has equal x and y
+  std::unique_ptr<PointBlocks> blocks;
+};
+
+/// read_points() for LAS and LAZ files, and folders of them, that are larger than memory. The points are sorted into
+/// blocks of at most `most_in_block`, in a file without a name in the folder for temporary files, with 48 bytes a
+/// point; it vanishes with the blocks. Fails like read_points(); with kUsage for other files, and where x and y would
+/// become metres around their middle; with kOutput if there is no space for the file; and with kMemory if a part of
+/// 2^-10 of the extent has more points than a block. Does not warn of heights or places that are far from all others.
+Result<SpooledPoints> spool_points(std::span<const std::string> paths, const ReadPointsOptions& options,
+                                   DuplicatePolicy duplicates, std::uint64_t most_in_block);
 
 /// True if `path` names points rather than a raster. The ending decides, in upper or lower case: .las .laz .csv .tsv
 /// .xyz .geojson .geojsonl .shp .fgb .gml .kml .parquet; .txt and .dat unless they begin like an ASCII grid; .gpkg

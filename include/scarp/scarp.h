@@ -19,6 +19,7 @@
 #include "scarp/options.h"
 #include "scarp/paper.h"
 #include "scarp/picture.h"
+#include "scarp/point_blocks.h"
 #include "scarp/points.h"
 #include "scarp/print.h"
 #include "scarp/result.h"

@@ -20,104 +20,6 @@ namespace scarp::grid {
 
 namespace {
 
-struct AxisExtent {
-  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
-  void include(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  double size() const { return most - least; }
-  double reach() const { return std::max(std::abs(least), std::abs(most)); }
-};
-
-/// Coordinates as whole multiples of a power of ten, 10^-digits.
-struct Decimals {
-  int digits = 0;
-  double power = 1;  ///< 10^|digits|, which a double holds exactly up to 10^22
-
-  /// Sets the nearest multiple. Returns true if the double nearest to this multiple is the coordinate.
-  bool read(double value, std::int64_t& multiple) const {
-    const double nearest = std::nearbyint(digits >= 0 ? value * power : value / power);
-    multiple = static_cast<std::int64_t>(nearest);
-    return (digits >= 0 ? nearest / power : nearest * power) == value;
-  }
-};
-
-/// The finest decimals whose multiples are exact doubles and span at most the lattice.
-std::optional<Decimals> finest_decimals(const AxisExtent& x, const AxisExtent& y) {
-  constexpr int kMostDigits = 22;
-  const double reach = std::max(x.reach(), y.reach()), size = std::max(x.size(), y.size());
-  for (int digits = kMostDigits; digits >= -kMostDigits; --digits) {
-    Decimals decimals{digits, 1};
-    for (int k = 0; k < std::abs(digits); ++k) decimals.power *= 10;
-    const auto count = [&](double length) { return digits >= 0 ? length * decimals.power : length / decimals.power; };
-    if (count(size) < kMaxCoordinate && count(reach) < 0x1p52) return decimals;
-  }
-  return std::nullopt;
-}
-
-struct Snapped {
-  PointLattice lattice;
-  std::vector<Point> at;  ///< by point
-};
-
-/// Nothing if the points do not lie on a decimal lattice.
-std::optional<Snapped> snap_to_decimals(const PointSet& points, const AxisExtent& x, const AxisExtent& y) {
-  const auto decimals = finest_decimals(x, y);
-  if (!decimals) return std::nullopt;
-  std::int64_t west = 0, east = 0, south = 0, north = 0;
-  for (const auto& [value, multiple] :
-       {std::pair{x.least, &west}, std::pair{x.most, &east}, std::pair{y.least, &south}, std::pair{y.most, &north}}) {
-    if (!decimals->read(value, *multiple)) return std::nullopt;
-  }
-  Snapped snapped;
-  snapped.at.reserve(points.size());
-  std::int32_t common = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::int64_t u = 0, v = 0;
-    if (!decimals->read(points.x[i], u) || !decimals->read(points.y[i], v)) return std::nullopt;
-    const Point p{static_cast<std::int32_t>(u - west), static_cast<std::int32_t>(north - v)};
-    if (common == 0 || p.x % common != 0 || p.y % common != 0) common = std::gcd(common, std::gcd(p.x, p.y));
-    snapped.at.push_back(p);
-  }
-  if (common == 0) common = 1;  // all points are at one place
-  if (common > 1) {
-    for (Point& p : snapped.at) p = {p.x / common, p.y / common};
-  }
-  const auto multiple = static_cast<double>(common);
-  snapped.lattice = {decimals->digits >= 0 ? multiple / decimals->power : multiple * decimals->power,
-                     static_cast<std::int32_t>((east - west) / common) + 1,
-                     static_cast<std::int32_t>((north - south) / common) + 1};
-  return snapped;
-}
-
-/// Divides the steps of a coarse lattice by a power of two.
-void make_room(Snapped& snapped) {
-  constexpr std::int32_t kEnough = 1 << 23;
-  PointLattice& lattice = snapped.lattice;
-  std::int32_t factor = 1;
-  while (std::int64_t{2} * factor * std::max(lattice.cols, lattice.rows) <= kEnough) factor *= 2;
-  for (Point& p : snapped.at) p = {p.x * factor, p.y * factor};
-  lattice.step /= factor;
-  lattice.cols = (lattice.cols - 1) * factor + 1;
-  lattice.rows = (lattice.rows - 1) * factor + 1;
-}
-
-Snapped snap_to_power_of_two(const PointSet& points, const AxisExtent& x, const AxisExtent& y, PointSteps steps) {
-  const double size = std::max(x.size(), y.size());
-  const int bits = steps == PointSteps::kFinest ? 30 : steps == PointSteps::kJudge ? 24 : 23;
-  int exponent = size > 0 ? std::ilogb(size) - bits : 0;
-  while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
-  const auto whole = [exponent](double length) {
-    return static_cast<std::int32_t>(std::nearbyint(std::ldexp(length, -exponent)));
-  };
-  Snapped snapped{{std::ldexp(1.0, exponent), whole(x.size()) + 1, whole(y.size()) + 1}, {}};
-  snapped.at.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    snapped.at.push_back({whole(points.x[i] - x.least), whole(y.most - points.y[i])});
-  return snapped;
-}
-
 struct Keyed {
   std::uint64_t key;
   std::uint32_t point;
@@ -241,47 +143,30 @@ std::uint32_t find_point(const SnappedPoints& points, Point at) {
 
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, PointSteps steps) {
   SCARP_RETURN_IF_ERROR(check(points));
-  AxisExtent x, y, z;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    x.include(points.x[i]);
-    y.include(points.y[i]);
-    z.include(points.z[i]);
-  }
-  constexpr double kReach = 1e100;  // the limit of the arithmetic of planes
-  if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
-    return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
-  const double extent = std::max(x.size(), y.size());
-  if (extent > 0 && extent < 1 / kReach)
-    return fail(ErrorKind::kInput,
-                fmt::format("all points lie within {} of each other; only a larger extent than 1e-100 can be "
-                            "triangulated: give x and y in a smaller unit",
-                            extent));
-  SnappedPoints result;
-  Snapped snapped;
-  std::optional<Snapped> decimal;
-  if (steps != PointSteps::kFloat32) decimal = snap_to_decimals(points, x, y);
-  // Fitting does not change triangles with more steps.
-  constexpr std::int32_t kMostFitSteps = 1 << 24;
-  if (decimal && steps == PointSteps::kFit && std::max(decimal->lattice.cols, decimal->lattice.rows) > kMostFitSteps)
-    decimal.reset();
-  if (decimal && steps == PointSteps::kFit) make_room(*decimal);
-  result.is_exact = decimal.has_value();
-  snapped = decimal ? std::move(*decimal) : snap_to_power_of_two(points, x, y, steps);
+  LatticeFinder finder;
+  finder.include(points);
+  SCARP_RETURN_IF_ERROR(finder.check());
+  if (steps != PointSteps::kFloat32) finder.read(points);
+  return snap_points(points, policy, finder.find(steps));
+}
 
+Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, const FoundLattice& found) {
+  SnappedPoints result;
+  result.is_exact = found.is_exact();
+  result.lattice = found.lattice();
+  const PointSteps steps = found.steps();
+  const double extent = found.extent();
   std::vector<Keyed> keys;
   keys.reserve(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    keys.push_back(
-        {curve_place(static_cast<std::uint64_t>(snapped.at[i].x), static_cast<std::uint64_t>(snapped.at[i].y)), i});
-  snapped.at = {};
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Point at = found.place(points.x[i], points.y[i]);
+    keys.push_back({curve_place(static_cast<std::uint64_t>(at.x), static_cast<std::uint64_t>(at.y)), i});
+  }
   radix_sort(keys, [](const Keyed& k) { return k.key; });
   std::vector<Chosen> places;
   result.at.reserve(keys.size());
   result.source.reserve(keys.size());
   result.z.reserve(keys.size());
-  result.lattice = snapped.lattice;
-  result.lattice.west = x.least;
-  result.lattice.north = y.most;
   const bool has_lines = !points.lines.empty() || !points.boundary.empty(),
              has_echoes = has_lines || steps != PointSteps::kFinest;
   if (has_echoes) result.place.resize(points.size());

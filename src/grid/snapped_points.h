@@ -5,25 +5,11 @@
 #include <vector>
 
 #include "base/point.h"
+#include "grid/point_lattice.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
 namespace scarp::grid {
-
-/// The lattice on which points are distinguished: columns count eastwards, rows southwards, as in a raster.
-struct PointLattice {
-  double step = 0;  ///< size of a column and of a row, in units of x and y
-  std::int32_t cols = 0, rows = 0;
-  double west = 0, north = 0;  ///< position of column 0 and row 0
-};
-
-/// The resolution of the lattice.
-enum class PointSteps {
-  kFinest,
-  kFloat32,  ///< so coarse that its points have exact float32 offsets from the middle; all vertices then lie on it
-  kFit,      ///< leaves space between points for vertices moved by fitting
-  kJudge,    ///< any resolution: points are only judged, so no two are too near each other
-};
 
 /// A point that was snapped to the lattice point of a point at another place. It has an error, but no separate lattice
 /// point.
@@ -61,5 +47,7 @@ std::uint32_t find_point(const SnappedPoints& points, Point at);
 /// extent below 1e-100, points too near for their extent, no points, and more than 2^31 − 1 points.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
+/// The same on a lattice that was found for a set with all these points.
+Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, const FoundLattice& found);
 
 }  // namespace scarp::grid

@@ -24,9 +24,17 @@ bool is_pipe(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
 }
 
+/// The folder for temporary files, which may not exist.
+std::string temporary_folder() {
+  for (const char* const variable : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"}) {
+    if (const char* const folder = std::getenv(variable)) return folder;
+  }
+  return "/tmp";
+}
+
 /// A new unnamed file; -1 and errno on failure.
 int open_nameless() {
-  std::string name = (std::filesystem::temp_directory_path() / "scarp-XXXXXX").string();
+  std::string name = (std::filesystem::path(temporary_folder()) / "scarp-XXXXXX").string();
   const int fd = ::mkostemp(name.data(), O_CLOEXEC);
   if (fd >= 0) ::unlink(name.c_str());
   return fd;
@@ -46,7 +54,7 @@ int write_chunk(int fd, const char* bytes, std::size_t size) {
 
 tl::unexpected<Error> refuse_room(const std::string& what, int error) {
   return fail(ErrorKind::kOutput, fmt::format("cannot keep {} in a file in {}, the folder for temporary files: {}",
-                                              what, std::filesystem::temp_directory_path().string(), reason_of(error)));
+                                              what, temporary_folder(), reason_of(error)));
 }
 
 Result<std::string> copy(const std::string& path) {
@@ -86,6 +94,34 @@ Result<std::string> spool_bytes(std::span<const std::uint8_t> bytes) {
   const std::uint64_t begin = end;
   end += bytes.size();
   return fmt::format("/vsisubfile/{}_{},/proc/self/fd/{}", begin, bytes.size(), file);
+}
+
+Result<int> open_scratch(const std::string& what) {
+  const int file = open_nameless();
+  if (file < 0) return refuse_room(what, errno);
+  return file;
+}
+
+Result<void> write_scratch(int file, std::uint64_t offset, std::span<const std::byte> bytes, const std::string& what) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return refuse_room(what, errno);
+    offset += static_cast<std::uint64_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return {};
+}
+
+Result<void> read_scratch(int file, std::uint64_t offset, std::span<std::byte> bytes, const std::string& what) {
+  while (!bytes.empty()) {
+    const ssize_t got = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return refuse_room(what, got == 0 ? EIO : errno);
+    offset += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return {};
 }
 
 Result<std::string> readable_name(const std::string& path) {

@@ -119,12 +119,14 @@ struct Worker {
 
 class PointReader {
  public:
-  PointReader(const Source& source, const Header& header, const Selection& selection, const Run& run)
+  PointReader(const Source& source, const Header& header, const Selection& selection, const Run& run,
+              const TakePoints& take)
       : source_(source),
         header_(header),
         selection_(selection),
         chooser_(header, selection),
         run_(run),
+        take_(take),
         reporter_(run.progress) {}
 
   Result<Points> read() {
@@ -136,13 +138,14 @@ class PointReader {
     if (selection_.extent) leave_out_chunks(find_chunks_outside(source_, header_, *selection_.extent));
     std::uint64_t bytes = 0;
     for (const LazChunk& chunk : chunks_) bytes += chunk.bytes;
-    reserve(header_.points, bytes, points_);
+    if (!take_) reserve(header_.points, bytes, points_);
     workers_.resize(static_cast<std::size_t>(thread_count(run_.threads)));
     parts_.resize(chunks_.size());
     parallel_in_order(
         chunks_.size(), run_.threads, [&](std::size_t i, std::size_t worker) { decode(i, workers_[worker]); },
         [&](std::size_t i) { return append(i); });
     if (!fault_.empty()) return fail(ErrorKind::kInput, fmt::format("{}: {}", source_.name, fault_));
+    SCARP_RETURN_IF_ERROR(taken_);
     if (is_cancelled_) return fail(ErrorKind::kCancelled, "cancelled while reading " + source_.name);
     return std::move(points_);
   }
@@ -190,6 +193,10 @@ class PointReader {
       return false;
     }
     points_.tally.add(part->points.tally);
+    if (take_) {
+      taken_ = take_(part->points);
+      return taken_ && report(i);
+    }
     const auto add = [](std::vector<double>& all, std::vector<double>& more) {
       if (all.capacity() == 0) {
         all = std::move(more);
@@ -200,6 +207,11 @@ class PointReader {
     add(points_.x, part->points.x);
     add(points_.y, part->points.y);
     add(points_.z, part->points.z);
+    return report(i);
+  }
+
+  /// False if the caller wants to stop.
+  bool report(std::size_t i) {
     if (!reporter_.due()) return true;
     is_cancelled_ = !reporter_.report("read", static_cast<double>(i + 1) / static_cast<double>(chunks_.size()), 0, 0);
     return !is_cancelled_;
@@ -210,6 +222,8 @@ class PointReader {
   const Selection& selection_;
   Chooser chooser_;
   const Run& run_;
+  const TakePoints& take_;
+  Result<void> taken_;
   Reporter reporter_;
   std::vector<LazChunk> chunks_;
   std::vector<Worker> workers_;
@@ -232,7 +246,14 @@ void Tally::add(const Tally& other) {
 }
 
 Result<Points> read_points(const Source& source, const Header& header, const Selection& selection, const Run& run) {
-  return PointReader(source, header, selection, run).read();
+  const TakePoints none;
+  return PointReader(source, header, selection, run, none).read();
+}
+
+Result<Tally> read_points(const Source& source, const Header& header, const Selection& selection, const Run& run,
+                          const TakePoints& take) {
+  SCARP_TRY(const auto& read, PointReader(source, header, selection, run, take).read());
+  return read.tally;
 }
 
 }  // namespace scarp::las

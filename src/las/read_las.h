@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,13 @@ struct Points {
   std::vector<double> x, y, z;
   Tally tally;
 };
+
+/// Receives the points of consecutive parts, in the order of the file; an error ends the reading.
+using TakePoints = std::function<Result<void>(const Points&)>;
+
+/// read_points() for points that one array cannot hold.
+Result<Tally> read_points(const Source& source, const Header& header, const Selection& selection, const Run& run,
+                          const TakePoints& take);
 
 /// Reads the points on `run.threads` threads (0: all cores), whose number does not change the result. The memory for
 /// points grows as they are decoded, whatever the header announces. In addition, each thread needs about a megabyte and

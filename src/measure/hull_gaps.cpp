@@ -48,6 +48,10 @@ std::vector<Spot> find_outer(std::size_t count, const SpotOf& spot) {
   return outer;
 }
 
+void sort_spots(std::vector<Spot>& spots) {
+  sort_rarely(spots, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+}
+
 /// The lower or the upper chain of the hull, from west to east; `sign` 1 or −1.
 std::vector<Spot> chain_of(const std::vector<Spot>& sorted, double sign) {
   std::vector<Spot> chain;
@@ -92,6 +96,20 @@ std::uint64_t count_edges(const Mesh& mesh, std::span<const OpenEdge> open, doub
 
 }  // namespace
 
+PointSet hull_corners(const PointSet& points) {
+  std::vector<Spot> spots = find_outer(points.size(), [&](std::size_t i) { return Spot{points.x[i], points.y[i]}; });
+  sort_spots(spots);
+  PointSet corners;
+  for (const double sign : {1, -1}) {
+    for (const Spot& corner : chain_of(spots, sign)) {
+      corners.x.push_back(corner.x);
+      corners.y.push_back(corner.y);
+      corners.z.push_back(0);
+    }
+  }
+  return corners;
+}
+
 std::uint64_t count_hull_gaps(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance) {
   if (open.empty() || snapped.size() == 0) return 0;
@@ -99,7 +117,7 @@ std::uint64_t count_hull_gaps(const PointSet& points, const grid::SnappedPoints&
     const std::uint32_t source = snapped.source[i];
     return Spot{points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]};
   });
-  sort_rarely(spots, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  sort_spots(spots);
   const auto lower = chain_of(spots, 1), upper = chain_of(spots, -1);
   return count_edges(mesh, open, tolerance,
                      [&](const Spot& beside) { return depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0; });

@@ -11,6 +11,9 @@
 
 namespace scarp::judge {
 
+/// The corners of the points' convex hull, with the height 0.
+PointSet hull_corners(const PointSet& points);
+
 /// Counts open edges at which the mesh has a hole or an inlet. At such an edge, the point 4 `tolerance` outside the
 /// edge's middle lies inside the points' convex hull. Cost: O(open edges · log hull), plus O(points).
 std::uint64_t count_hull_gaps(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,

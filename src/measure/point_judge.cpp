@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,6 +23,7 @@
 #include "measure/error_summary.h"
 #include "measure/facet_error.h"
 #include "measure/hull_gaps.h"
+#include "measure/judge_blocks.h"
 #include "measure/progress_gate.h"
 #include "measure/topology.h"
 
@@ -251,44 +254,101 @@ class Offenders {
   std::vector<Offender> all_;
 };
 
-void summarize(std::span<const double> errors, Measurement& result) {
+/// Errors of points with consecutive numbers, NaN for uncovered ones, and the triangles of the errors.
+struct Errors {
+  std::vector<double> errors;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// Judges all points, in lattice order; nothing if cancelled.
+std::optional<Errors> judge_all(const Judge& judge, const PointBounds& bounds, bool has_triangles, int threads,
+                                ProgressGate& gate) {
+  Errors all{std::vector<double>(judge.size(), kNone), std::vector<std::uint32_t>(has_triangles ? judge.size() : 0)};
+  constexpr std::size_t kChunk = 1 << 14;
+  const std::size_t chunks = (judge.size() + kChunk - 1) / kChunk;
+  const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(threads), 1024));
+  for (std::size_t first = 0; first < chunks; first += window) {
+    if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return std::nullopt;
+    parallel_for(std::min(window, chunks - first), threads, [&](std::size_t i) {
+      const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
+      Judge::Run run(judge);
+      for (std::size_t point = begin; point < end; ++point) {
+        const PointVerdict verdict = run.judge(point, bounds.at(judge.source_of(point)));
+        all.errors[point] = verdict.error;
+        if (has_triangles) all.triangles[point] = verdict.triangle;
+      }
+    });
+  }
+  return all;
+}
+
+tl::unexpected<Error> report_cancelled() { return fail(ErrorKind::kCancelled, "measuring was cancelled"); }
+
+}  // namespace
+
+std::optional<std::size_t> ErrorTally::add(std::span<const double> errors) {
   constexpr std::size_t kTogether = 1 << 16;
-  Histogram histogram;
-  Array<std::uint32_t> room;
-  Sum error, magnitude, square;
-  double largest = -1;
+  std::optional<std::size_t> worst;
   for (std::size_t first = 0; first < errors.size(); first += kTogether) {
     const auto part = errors.subspan(first, std::min(kTogether, errors.size() - first));
     Buckets buckets;
-    const RowSums sums = sum_row(part, room, buckets);
-    histogram.add(buckets);
-    result.samples += sums.samples;
-    error.add(sums.error);
-    magnitude.add(sums.magnitude);
-    square.add(sums.square);
-    if (!(sums.largest > largest)) continue;
-    largest = sums.largest;
-    const auto at = std::find_if(part.begin(), part.end(), [&](double e) { return std::abs(e) == largest; });
-    result.max_error_at = {static_cast<std::int32_t>(first + static_cast<std::size_t>(at - part.begin())), 0};
+    const RowSums sums = sum_row(part, room_, buckets);
+    histogram_.add(buckets);
+    samples_ += sums.samples;
+    error_.add(sums.error);
+    magnitude_.add(sums.magnitude);
+    square_.add(sums.square);
+    if (!(sums.largest > largest_)) continue;
+    largest_ = sums.largest;
+    const auto at = std::find_if(part.begin(), part.end(), [&](double e) { return std::abs(e) == largest_; });
+    worst = first + static_cast<std::size_t>(at - part.begin());
   }
-  result.max_error = std::max(0.0, largest);
-  if (result.samples > 0) {
-    const auto count = static_cast<double>(result.samples);
-    result.mean_error = error.value() / count;
-    result.mean_abs_error = magnitude.value() / count;
-    result.rmse = std::sqrt(square.value() / count);
-  }
-  set_percentiles(histogram, result);
+  return worst;
 }
 
-}  // namespace
+void ErrorTally::finish(Measurement& result) const {
+  result.samples = samples_;
+  result.max_error = std::max(0.0, largest_);
+  if (samples_ > 0) {
+    const auto count = static_cast<double>(samples_);
+    result.mean_error = error_.value() / count;
+    result.mean_abs_error = magnitude_.value() / count;
+    result.rmse = std::sqrt(square_.value() / count);
+  }
+  set_percentiles(histogram_, result);
+}
+
+Result<std::vector<double>> judge_block(const PointSet& block, const Mesh& mesh, double tolerance,
+                                        const MeasureOptions& options) {
+  grid::SnappedPoints places;
+  places.at.resize(block.size());  // not read
+  places.z = block.z;
+  places.source.resize(block.size());
+  std::iota(places.source.begin(), places.source.end(), 0);
+  Box box;
+  for (std::size_t i = 0; i < block.size(); ++i) box.include(block.x[i] - mesh.origin[0], block.y[i] - mesh.origin[1]);
+  const Box near{box.x0 - tolerance, box.y0 - tolerance, box.x1 + tolerance, box.y1 + tolerance};
+  std::vector<std::uint32_t> judged;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    Box of;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* const p = &mesh.positions[3 * std::size_t{mesh.triangles[3 * std::size_t{t} + k]}];
+      of.include(p[0], p[1]);
+    }
+    if (of.x0 <= near.x1 && of.x1 >= near.x0 && of.y0 <= near.y1 && of.y1 >= near.y0) judged.push_back(t);
+  }
+  ProgressGate gate(options.run.progress);
+  const Judge judge(block, places, mesh, judged, box, tolerance);
+  auto all = judge_all(judge, PointBounds(places, options), false, options.run.threads, gate);
+  if (!all) return report_cancelled();
+  return std::move(all->errors);
+}
 
 Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options) {
   SCARP_RETURN_IF_ERROR(check_mesh(mesh));
   SCARP_RETURN_IF_ERROR(check_options(points, options));
   ProgressGate gate(options.run.progress);
-  const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 
   Measurement result;
   result.vertices = mesh.vertex_count();
@@ -322,23 +382,9 @@ Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoin
 
   const PointBounds bounds(snapped, options);
   // In lattice order, so that sums do not depend on the order of the points.
-  std::vector<double> errors(judge.size(), kNone);
-  std::vector<std::uint32_t> triangles(options.collect_above ? judge.size() : 0);
-  constexpr std::size_t kChunk = 1 << 14;
-  const std::size_t chunks = (judge.size() + kChunk - 1) / kChunk;
-  const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.run.threads), 1024));
-  for (std::size_t first = 0; first < chunks; first += window) {
-    if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
-    parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
-      const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
-      Judge::Run run(judge);
-      for (std::size_t point = begin; point < end; ++point) {
-        const PointVerdict verdict = run.judge(point, bounds.at(judge.source_of(point)));
-        errors[point] = verdict.error;
-        if (options.collect_above) triangles[point] = verdict.triangle;
-      }
-    });
-  }
+  auto all_errors = judge_all(judge, bounds, options.collect_above.has_value(), options.run.threads, gate);
+  if (!all_errors) return report_cancelled();
+  auto& [errors, triangles] = *all_errors;
   Offenders offenders;
   for (std::size_t point = 0; point < judge.size(); ++point) {
     const std::uint32_t source = judge.source_of(point);
@@ -353,9 +399,13 @@ Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoin
     }
   }
   result.offenders = offenders.finish();
-  summarize(errors, result);
-  std::int32_t& worst = result.max_error_at[0];
-  if (worst >= 0) worst = static_cast<std::int32_t>(judge.source_of(static_cast<std::size_t>(worst)));
+  for (std::size_t point = 0; points.added > 0 && point < judge.size(); ++point) {
+    if (judge.source_of(point) >= points.size() - points.added) errors[point] = kNone;
+  }
+  ErrorTally tally;
+  if (const auto worst = tally.add(errors))
+    result.max_error_at = {static_cast<std::int32_t>(judge.source_of(*worst)), 0};
+  tally.finish(result);
   if (options.on_row) {
     std::vector<float> row(points.size(), std::numeric_limits<float>::quiet_NaN());
     for (std::size_t point = 0; point < errors.size(); ++point)
@@ -364,7 +414,7 @@ Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoin
   }
 
   if (options.topology) {
-    if (!gate.go_on("topology", 0)) return cancelled();
+    if (!gate.go_on("topology", 0)) return report_cancelled();
     result.open_edges = edges.open.size();
     result.misoriented_edges = edges.misoriented;
     result.non_manifold_edges = edges.non_manifold;
@@ -383,7 +433,7 @@ Result<Measurement> judge_points(const PointSet& points, const grid::SnappedPoin
       is_stopped = !gate.go_on("topology", fraction);
       return !is_stopped;
     });
-    if (is_stopped) return cancelled();
+    if (is_stopped) return report_cancelled();
   }
   return result;
 }

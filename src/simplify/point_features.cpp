@@ -52,10 +52,14 @@ class BoundaryMaker {
     SCARP_TRY(const auto& surface, refine::PointSurface::make(points_, duplicates_));
     spacing_ = surface.spacing() / 2;
     find_on_boundary();
+    const std::size_t given = points_.size();
     cut_lines();
+    const std::size_t crossings = points_.size() - given;
     BoundaryCut cut;
     cut.points_outside = drop_outside();
+    const std::size_t kept = points_.size();
     add_rings(surface, cut);
+    points_.added = crossings + points_.size() - kept;
     return cut;
   }
 

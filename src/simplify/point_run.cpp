@@ -33,6 +33,7 @@ class PointRun {
         recipe_(recipe),
         options_(recipe.options),
         lines_(task.lines),
+        wider_(task.proof),
         budget_(options_.max_triangles, options_.max_vertices),
         bound_(options_.max_error.value_or(0)),
         least_(task.least(recipe.options)),
@@ -330,7 +331,7 @@ class PointRun {
     const double thinnest = std::max({8 * thinnest_border_, 32 * position_rounding(mesh), snapped_.lattice.step});
     const double area = snapped_.lattice.step * snapped_.lattice.step * static_cast<double>(snapped_.lattice.cols) *
                         static_cast<double>(snapped_.lattice.rows);
-    if (thinnest > std::sqrt(area / static_cast<double>(snapped_.size())) / 64) return false;
+    if (thinnest > std::sqrt(area / static_cast<double>(total())) / 64) return false;
     thinnest_border_ = thinnest;
     return true;
   }
@@ -343,6 +344,7 @@ class PointRun {
     judge.run.progress = options_.run.progress;
     judge.inlets = options_.boundary_length.has_value();
     if (options_.max_error) judge.collect_above = bound_ + allowance();
+    judge.coverage_tolerance *= std::sqrt(static_cast<double>(snapped_.size()) / static_cast<double>(total()));
     judge.tolerance = options_.tolerances;
     for (;;) {
       const auto start = Clock::now();
@@ -353,18 +355,64 @@ class PointRun {
       const Measurement& m = result.measurement;
       const bool is_kept = result.stop != StopReason::kMaxError ||
                            (m.max_error <= bound_ + allowance() && m.uncovered == 0 && m.over_tolerance == 0);
-      if (m.is_sound() && is_kept) {
+      const bool is_sound = m.is_sound();
+      bool is_proven = is_sound && is_kept;
+      if (is_proven && wider_ != nullptr) {
+        SCARP_TRY(is_proven, prove_at_all(result));
+        if (!is_proven) {
+          freeze_into(result);
+          continue;
+        }
+      }
+      if (is_proven) {
         result.passes.push_back({"prove", result.seconds_measure});
         if (goals().any()) result.shape = shape::report_shapes(result.mesh, goals(), domain_.tin, snapped_.lattice);
         return {};
       }
       const auto again = Clock::now();
-      SCARP_TRY(const auto& mended, m.is_sound() ? mend(result) : false);
+      SCARP_TRY(const auto& mended, is_sound ? mend(result) : false);
       if (!mended && !trim_border(result.mesh)) return fail(ErrorKind::kPromise, describe_failure(m) + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
   }
+
+  /// Judges the mesh at all points of which those of the run are a part. If some break the bound, refinement continues
+  /// with them. Returns true if none does.
+  Result<bool> prove_at_all(Simplified& result) {
+    RunBound bound;
+    if (result.stop == StopReason::kMaxError || result.stop == StopReason::kExact) bound = {bound_, allowance()};
+    const std::vector<Point> before = snapped_.at;
+    const auto start = Clock::now();
+    SCARP_TRY(const bool has_grown, wider_->judge(result.mesh, bound, result.measurement));
+    result.seconds_measure += seconds_since(start);
+    result.judged_max_error = result.measurement.max_error;
+    result.judged_rmse = result.measurement.rmse;
+    if (!has_grown) return true;
+    forget_refinement();
+    const auto renumber = [&](std::vector<std::uint32_t>& points) {
+      for (std::uint32_t& point : points) {
+        if (point != tin::kNone) point = grid::find_point(snapped_, before[point]);
+      }
+    };
+    renumber(domain_.point_of);
+    for (auto& outline : domain_.outlines) renumber(outline);
+    renumber(mended_);
+    points_by_source_.clear();
+    // Fitting chooses other vertices, which may break the bound at other points, so it must end.
+    constexpr int kMostFits = 4;
+    const bool fits_again = fits_ && fits_again_++ < kMostFits;
+    if (fits_again)
+      start_refinement();
+    else
+      restart_refinement();
+    SCARP_RETURN_IF_ERROR(refine(result.stop));
+    if (fits_again) SCARP_RETURN_IF_ERROR(fit(result));
+    SCARP_RETURN_IF_ERROR(shape(bound_, result));
+    return false;
+  }
+
+  std::uint64_t total() const { return wider_ == nullptr ? snapped_.size() : wider_->total(); }
 
   /// The judge's own double arithmetic rounds.
   double allowance() const { return 1e-12 * (bound_ + largest_height_); }
@@ -421,10 +469,11 @@ class PointRun {
 
   const PointSet& points_;
   const grid::SnappedPoints& snapped_;
-  std::span<const double> heights_;
+  const std::vector<double>& heights_;
   const PointRecipe& recipe_;
   const PointOptions& options_;
   const refine::PointLines& lines_;
+  WiderProof* wider_;  ///< null: these are all points
   pieces::Budget budget_;
   double bound_;
   std::string least_;
@@ -438,6 +487,7 @@ class PointRun {
   std::optional<refine::ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> points_by_source_, mended_;
   std::optional<Offender> stuck_;  ///< a vertex that breaks its bound
+  int fits_again_ = 0;
   std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0;
   PointFacts facts_;
   Reporter reporter_;

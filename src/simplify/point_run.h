@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "grid/snapped_points.h"
 #include "refine/point_lines.h"
@@ -14,6 +14,7 @@
 #include "scarp/points.h"
 #include "scarp/result.h"
 #include "simplify/point_recipe.h"
+#include "simplify/wider_proof.h"
 
 namespace scarp::run {
 
@@ -21,7 +22,7 @@ namespace scarp::run {
 struct PointTask {
   const PointSet& points;
   const grid::SnappedPoints& snapped;
-  std::span<const double> heights;  ///< heights of points as vertices: z, perhaps rounded to float32
+  const std::vector<double>& heights;  ///< heights of points as vertices: z, perhaps rounded to float32
   const refine::PointLines& lines;
   grid::PointSteps steps;
   /// The subject of the error for a budget that the least mesh exceeds.
@@ -35,6 +36,8 @@ struct PointTask {
     return outline + zeros + (has_zeros ? " alone need" : " alone needs");
   }
   double width;  ///< width of the hull: ScatteredDomain::width
+  /// The proof at more points, which may join these; null: these are all.
+  WiderProof* proof = nullptr;
 };
 
 struct PointFacts {

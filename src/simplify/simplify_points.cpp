@@ -17,11 +17,13 @@
 #include "pieces/checks.h"
 #include "refine/concave_outline.h"
 #include "refine/hull_fit.h"
+#include "scarp/point_blocks.h"
 #include "scarp/points.h"
 #include "simplify/budget_search.h"
 #include "simplify/point_recipe.h"
 #include "simplify/point_run.h"
 #include "simplify/squares_search.h"
+#include "simplify/working_set.h"
 
 namespace scarp {
 
@@ -85,7 +87,9 @@ Outlines snap_boundary(const PointSet& points, const grid::SnappedPoints& snappe
 }
 
 Result<run::PointMesh> run_from(const run::PointTask& task, const run::PointRecipe& recipe, const Outlines& outlines) {
-  SCARP_TRY(auto&& domain, refine::build_domain(task.snapped, outlines));
+  // The points may have grown in number since the outlines were made.
+  SCARP_TRY(auto&& domain,
+            task.proof == nullptr ? refine::build_domain(task.snapped, outlines) : refine::build_domain(task.snapped));
   for (const std::uint32_t point : task.lines.ends()) {
     const Point p = task.snapped.at[point];
     domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
@@ -163,40 +167,30 @@ Result<run::PointMesh> search(const run::PointTask& task, const run::PointRecipe
   return run::PointMesh{std::move(found), of_found->second};
 }
 
-}  // namespace
-
-std::array<double, 2> local_origin(const PointSet& points) { return {middle(points.x), middle(points.y)}; }
-
-Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
-  SCARP_RETURN_IF_ERROR(run::check_point_options(points, options));
-  const run::PointRecipe recipe(points, options);
-  SCARP_TRY(const auto& snapped, grid::snap_points(points, options.duplicates, recipe.steps));
+Result<SimplifiedPoints> simplify(const PointSet& points, const grid::SnappedPoints& snapped,
+                                  const std::vector<double>& heights, const run::PointRecipe& recipe,
+                                  run::WiderProof* proof) {
+  const PointOptions& options = recipe.options;
   SCARP_TRY(auto&& domain, refine::build_domain(snapped));
   SCARP_RETURN_IF_ERROR(check_width(points, snapped, domain));
   const double width = domain.width;
   const grid::PointLattice& lattice = snapped.lattice;
   const double area = lattice.step * lattice.cols * lattice.step * lattice.rows;
-  SCARP_RETURN_IF_ERROR(
-      pieces::check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(snapped.size()))));
+  const std::uint64_t count = proof == nullptr ? snapped.size() : proof->total();
+  SCARP_RETURN_IF_ERROR(pieces::check_shape_goals(options.quality.shape, std::sqrt(area / static_cast<double>(count))));
   if (!points.boundary.empty()) {
     SCARP_TRY(domain, refine::build_domain(snapped, snap_boundary(points, snapped)));
   } else if (options.boundary_length) {
     SCARP_TRY(domain, refine::build_concave_domain(snapped, std::move(domain), *options.boundary_length));
   }
   SCARP_TRY(const auto& lines, refine::PointLines::build(points, snapped));
-  std::vector<double> rounded;
-  if (options.float32_positions) {
-    SCARP_TRY(rounded, round_heights(points, snapped));
-  }
-  const run::PointTask task{
-      points, snapped,      options.float32_positions ? std::span<const double>(rounded) : snapped.z,
-      lines,  recipe.steps, width};
+  const run::PointTask task{points, snapped, heights, lines, recipe.steps, width, proof};
   SimplifiedPoints result;
   result.points = points.size();
   result.duplicates = snapped.duplicates;
   for (const auto& ring : domain.outlines) result.on_hull += ring.size();
   result.lattice_step = snapped.lattice.step;
-  if (!options.boundary_length && points.boundary.empty() && points.lines.empty())
+  if (!options.boundary_length && points.boundary.empty() && points.lines.empty() && proof == nullptr)
     result.hull_fit = refine::find_hull_fit(snapped);
   const Outlines outlines = domain.outlines;
   SCARP_TRY(auto&& made,
@@ -205,9 +199,74 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   result.flat = made.facts.flat;
   result.loose = made.facts.loose;
   return result;
+}
+
+Error refuse_memory() {
+  return {ErrorKind::kInput, "not enough memory for these points and this goal: allow a larger error or fewer points"};
+}
+
+Result<void> check_blocks(const PointBlocks& blocks, const PointOptions& options) {
+  if (!options.tolerances.empty() || options.boundary_length || options.placement)
+    return fail(ErrorKind::kUsage, "points in blocks take no tolerances, boundary_length or placement");
+  if (blocks.size() == 0) return fail(ErrorKind::kInput, "there are no points");
+  return {};
+}
+
+/// The options of the first run, above whose mesh points are chosen.
+PointOptions first_options(PointOptions options) {
+  options.quality = {};
+  options.quality.effort = Effort::kFast;
+  options.objective = Objective::kMax;
+  return options;
+}
+
+}  // namespace
+
+std::array<double, 2> local_origin(const PointSet& points) { return {middle(points.x), middle(points.y)}; }
+
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
+  SCARP_RETURN_IF_ERROR(run::check_point_options(points, options));
+  const run::PointRecipe recipe(points, options);
+  SCARP_TRY(const auto& snapped, grid::snap_points(points, options.duplicates, recipe.steps));
+  if (!options.float32_positions) return simplify(points, snapped, snapped.z, recipe, nullptr);
+  SCARP_TRY(const auto& rounded, round_heights(points, snapped));
+  return simplify(points, snapped, rounded, recipe, nullptr);
 } catch (const std::bad_alloc&) {
-  return fail(ErrorKind::kInput,
-              "not enough memory for these points and this goal: allow a larger error or fewer points");
+  return tl::unexpected(refuse_memory());
+} catch (const std::exception& e) {
+  return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
+}
+
+Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointOptions& options) try {
+  SCARP_RETURN_IF_ERROR(check_blocks(blocks, options));
+  SCARP_RETURN_IF_ERROR(run::check_point_options({}, options));
+  run::WorkingSet working(blocks, options);
+  SCARP_RETURN_IF_ERROR(working.find_extent());
+  const run::PointRecipe asked(working.points(), options);
+  PointOptions of_run = options;
+  // Vertices off the points leave errors near the bound everywhere, so many other points would break the bound itself.
+  const double share = asked.traits.moves_vertices ? 0.9 : 1;
+  if (of_run.max_error) *of_run.max_error *= share;
+  const run::PointRecipe recipe(working.points(), of_run);
+  SCARP_RETURN_IF_ERROR(working.start(recipe.steps, share));
+  if (options.float32_positions) {
+    SCARP_RETURN_IF_ERROR(round_heights(working.points(), working.snapped()));
+  }
+  const auto run = [&](const run::PointRecipe& of, run::WiderProof* proof) {
+    return simplify(working.points(), working.snapped(), working.heights(), of, proof);
+  };
+  {
+    SCARP_TRY(const auto& first, run(run::PointRecipe(working.points(), first_options(options)), nullptr));
+    SCARP_RETURN_IF_ERROR(working.add_extremes(first.simplified.mesh));
+  }
+  SimplifiedBlocks result;
+  SCARP_TRY(result.made, run(recipe, &working));
+  result.made.points = blocks.size();
+  result.made.duplicates = 0;
+  result.kept = working.take_points();
+  return result;
+} catch (const std::bad_alloc&) {
+  return tl::unexpected(refuse_memory());
 } catch (const std::exception& e) {
   return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
 }

@@ -88,6 +88,49 @@ succeeds "$scarp" info survey.las --class all,withheld --json
 [ "$(json "$logs/out" points count)" = "$(json "$logs/out" points las points)" ] || fail "withheld points cannot be had"
 holds "$(json "$logs/out" points bounds low 2) == -50"
 
+# In parts, within a memory limit: the promise at all points, and the same verdict in parts.
+python3 - <<'PY'
+import math
+import random
+import struct
+
+random.seed(4)
+count = 300000
+head = bytearray(227)
+head[:4] = b"LASF"
+struct.pack_into("<BB", head, 24, 1, 2)
+struct.pack_into("<HII", head, 94, 227, 227, 0)
+struct.pack_into("<BHI", head, 104, 0, 20, count)
+struct.pack_into("<3d", head, 131, 0.01, 0.01, 0.001)
+with open("large.las", "wb") as file:
+    file.write(head)
+    for _ in range(count):
+        x, y = random.randrange(100000), random.randrange(80000)
+        z = 40000 * math.sin(x / 9000) * math.cos(y / 7000) + random.randrange(2000)
+        file.write(struct.pack("<3iHBBbBH", x, y, round(z), 0, 9, 2, 0, 0, 0))
+PY
+for effort in fast normal; do
+  succeeds "$scarp" simplify large.las parts.ply -e 2 --effort $effort --memory 90M --report parts.json --overwrite
+  grep -q 'points  *300,000, heights' "$logs/out" || fail "the summary of points in parts: $(cat "$logs/out")"
+  [ "$(json parts.json input points)" = 300000 ] || fail "the report of points in parts"
+  succeeds "$scarp" measure large.las parts.ply --fail-above 2
+  mv "$logs/out" whole.txt
+  succeeds "$scarp" measure large.las parts.ply --fail-above 2 --memory 90M
+  cmp "$logs/out" whole.txt || fail "the judge in parts: $(diff "$logs/out" whole.txt)"
+  succeeds "$scarp" simplify large.las one.ply -e 2 --effort $effort --memory 90M -j 1 --overwrite -q
+  cmp <(body parts.ply) <(body one.ply) || fail "threads change a mesh in parts"
+done
+succeeds "$scarp" simplify large.las few.glb -t 500 --memory 90M --normals -q
+succeeds "$scarp" measure large.las few.glb --json
+holds "$(json "$logs/out" triangles) <= 500"
+refuses 1 "--memory cannot be combined with --despike" "$scarp" simplify large.las y.glb -e 2 --memory 90M --duplicates despike=5
+refuses 1 "--memory cannot be combined with --boundary concave:50: it reads points in parts" "$scarp" simplify large.las y.glb -e 2 --memory 90M --boundary concave:50
+refuses 1 "--memory cannot be combined with --lods" "$scarp" simplify large.las y.glb -e 2 --memory 90M --lods 2
+succeeds "$scarp" simplify large.las ends.glb -e 2 --boundary concave:50 -q
+refuses 1 "--memory cannot be combined with --boundary" "$scarp" measure large.las ends.glb --memory 90M
+printf '1,2,3\n4,5,6\n9,7,8\n' >plain.csv
+refuses 1 "only points of LAS and LAZ files are read in parts: leave --memory out" "$scarp" simplify plain.csv y.glb -e 1 --memory 90M
+
 # By content, whatever the name; from a pipe.
 cp survey.las survey.bin
 succeeds "$scarp" simplify survey.bin x.glb -e 1 --points --overwrite -q
@@ -99,10 +142,12 @@ refuses 1 "leaves no class" "$scarp" simplify survey.las y.glb -e 1 --class 2,no
 refuses 1 "--class is empty" "$scarp" simplify survey.las y.glb -e 1 --class ''
 refuses 1 "choose all, first, last or only" "$scarp" simplify survey.las y.glb -e 1 --class returns=second
 refuses 2 "of other classes; its classes are 2 (2001), 5 (400)" "$scarp" simplify survey.las y.glb -e 1 --class water --overwrite
-printf '1,2,3\n4,5,6\n9,7,8\n' >plain.csv
 refuses 1 "LAS and LAZ files" "$scarp" simplify plain.csv x.glb -e 1 --class ground --overwrite
 refuses 1 "--class is for scattered points" "$scarp" simplify "$dem" x.glb -e 1 --class ground --overwrite
 head -c 5000 survey.las >cut.las
 refuses 2 "the file is cut off" "$scarp" simplify cut.las x.glb -e 1 --overwrite
 head -c 100 survey.las >cut.las
 refuses 2 "cut.las: ends within its header" "$scarp" info cut.las
+refuses 4 "cannot keep points in a file in" bash -c 'ulimit -f 8; exec "$@"' - "$scarp" simplify large.las y.glb -e 2 --memory 90M
+refuses 4 "cannot keep points in a file in /nowhere" env TMPDIR=/nowhere "$scarp" simplify large.las y.glb -e 2 --memory 90M
+refuses 1 "--memory 73M has no space for" "$scarp" simplify large.las y.obj -e 0.1 --memory 73M

@@ -318,4 +318,16 @@ inline Bytes make_laz(LasFile file, const std::vector<std::size_t>& ends, bool i
   return bytes;
 }
 
+/// Keys of GeoTIFF: pairs of a key and its value.
+inline VariableRecord geo_keys(const std::vector<std::pair<std::uint16_t, std::uint16_t>>& keys) {
+  VariableRecord record{"LASF_Projection", 34735, {}};
+  const auto add = [&](std::uint16_t value) { put(record.bytes, record.bytes.size(), value); };
+  for (const std::size_t value : {std::size_t{1}, std::size_t{1}, std::size_t{0}, keys.size()})
+    add(static_cast<std::uint16_t>(value));
+  for (const auto& [key, value] : keys) {
+    for (const std::uint16_t word : {key, std::uint16_t{0}, std::uint16_t{1}, value}) add(word);
+  }
+  return record;
+}
+
 }  // namespace scarp::testing

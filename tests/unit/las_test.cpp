@@ -22,6 +22,7 @@ namespace {
 using testing::Bytes;
 using testing::contains;
 using testing::FilePoint;
+using testing::geo_keys;
 using testing::LasFile;
 using testing::put;
 
@@ -288,18 +289,6 @@ TEST(Las, a_file_without_points_is_refused_in_a_sentence) {
     ASSERT_FALSE(points.has_value());
     EXPECT_EQ(points.error().message, scratch.file("no.laz") + ": holds no points");
   }
-}
-
-/// Keys of GeoTIFF: pairs of a key and its value.
-testing::VariableRecord geo_keys(const std::vector<std::pair<std::uint16_t, std::uint16_t>>& keys) {
-  testing::VariableRecord record{"LASF_Projection", 34735, {}};
-  const auto add = [&](std::uint16_t value) { put(record.bytes, record.bytes.size(), value); };
-  for (const std::size_t value : {std::size_t{1}, std::size_t{1}, std::size_t{0}, keys.size()})
-    add(static_cast<std::uint16_t>(value));
-  for (const auto& [key, value] : keys) {
-    for (const std::uint16_t word : {key, std::uint16_t{0}, std::uint16_t{1}, value}) add(word);
-  }
-  return record;
 }
 
 Result<PointSet> read_with(const LasFile& file, const ReadPointsOptions& options = {}) {

@@ -31,6 +31,10 @@ Result<void> leave_out_nodata(double nodata, PointSet& points) {
   grid::keep_points(points, [&](std::size_t i) { return std::isfinite(points.z[i]) && points.z[i] != nodata; });
   points.without_height = given - points.size();
   if (points.size() > 0) return {};
+  return refuse_no_heights(points);
+}
+
+tl::unexpected<Error> refuse_no_heights(const PointSet& points) {
   return fail(ErrorKind::kInput, points.path + ": no point has a height other than that of --nodata");
 }
 

@@ -26,6 +26,7 @@ Result<void> leave_out_nodata(double nodata, PointSet& points);
 /// Removes and counts the points outside ReadPointsOptions::extent. REQUIRES: x and y as in the file.
 Result<void> crop(const ReadPointsOptions& options, PointSet& points);
 tl::unexpected<Error> refuse_empty_extent(const PointSet& points);
+tl::unexpected<Error> refuse_no_heights(const PointSet& points);
 
 /// The command that adds a CRS to the file of the points.
 std::string crs_command(const PointSet& points, const std::string& crs);

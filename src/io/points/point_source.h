@@ -40,6 +40,10 @@ std::string declare_crs_command(const std::string& path, const std::string& crs)
 /// Reads a LAS or LAZ file; see read_points().
 Result<PointSet> read_las_points(const std::string& path, const ReadPointsOptions& options);
 
+/// spool_points() for LAS and LAZ files.
+Result<SpooledPoints> spool_las_points(std::span<const std::string> paths, const ReadPointsOptions& options,
+                                       DuplicatePolicy duplicates, std::uint64_t most_in_block);
+
 /// read_points() for all formats without a reader here; may throw std::bad_alloc. In a build without GDAL it fails with
 /// kInput and the reason.
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options);

@@ -254,6 +254,24 @@ void warn_of_far_points(PointSet& points) {
 
 }  // namespace
 
+Result<SpooledPoints> spool_points(std::span<const std::string> paths, const ReadPointsOptions& options,
+                                   DuplicatePolicy duplicates, std::uint64_t most_in_block) try {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::vector<std::string> of_folder = las_files_in(path);
+    if (of_folder.empty()) of_folder = {path};
+    for (std::string& file : of_folder) {
+      if (!is_las(file))
+        return fail(ErrorKind::kUsage,
+                    file + ": only points of LAS and LAZ files are read in parts: leave --memory out");
+      files.push_back(std::move(file));
+    }
+  }
+  return io::spool_las_points(files, options, duplicates, most_in_block);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + (paths.empty() ? "no points" : paths.front()));
+}
+
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
   const PointSet* const lent = io::find_lent_points(path);
   auto points = lent != nullptr ? io::read_lent_points(*lent, path, options) : read_files(path, options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "session/text/text.h"
 
@@ -103,12 +104,18 @@ Result<void> check_in_memory(const OwnedHeightField& field, const std::string& o
                           option, field.cols, field.rows, option, megabytes_in_memory(field, needs)));
 }
 
-Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error) {
-  constexpr std::string_view kLimit = "the memory limit", kWhole = "read the raster as a whole";
-  if (!given.has(OptionId::kMemory)) return error;
-  if (error.message.starts_with(kLimit))
+Error name_limit(const GivenOptions& given, Error error) {
+  constexpr std::string_view kLimit = "the memory limit";
+  if (given.has(OptionId::kMemory) && error.message.starts_with(kLimit))
     error.message.replace(0, kLimit.size(),
                           fmt::format("{} {}", OptionId::kMemory, shell_word(*given[OptionId::kMemory])));
+  return error;
+}
+
+Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error) {
+  constexpr std::string_view kWhole = "read the raster as a whole";
+  if (!given.has(OptionId::kMemory)) return error;
+  error = name_limit(given, std::move(error));
   if (const std::size_t at = error.message.find(kWhole); at != std::string::npos)
     error.message.replace(at, kWhole.size(),
                           fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field)));

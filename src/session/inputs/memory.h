@@ -1,4 +1,4 @@
-// Rasters larger than memory.
+// Input larger than memory.
 #pragma once
 
 #include <cstdint>
@@ -53,6 +53,8 @@ int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::
 /// sufficient memory limit.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs = {});
 
+/// Names --memory in the library's errors about a memory limit.
+Error name_limit(const GivenOptions& given, Error error);
 /// Rewrites the library's errors about a memory limit, or about rasters not entirely in memory, in terms of --memory.
 Error name_memory(const GivenOptions& given, const OwnedHeightField& field, Error error);
 

@@ -179,7 +179,7 @@ Result<void> GivenOptions::settle() {
     Entry& one = entry(row->id);
     if (row->type != OptionType::kFlag) one.is_given = one.text || !one.texts.empty();
   }
-  return check_rules(command_, *this);
+  return check_rules(command_, *this, false);
 }
 
 Result<std::optional<double>> GivenOptions::number(OptionId id) const {

@@ -17,6 +17,8 @@ constexpr auto kNeeds = OptionRule::Kind::kNeeds;
 constexpr auto kExcludes = OptionRule::Kind::kExcludes;
 constexpr auto kAllows = OptionRule::Kind::kAllows;
 
+constexpr const char* kInParts = "it reads points in parts, and this needs all of them at once";
+
 constexpr OptionRule kRules[] = {
     {{kVolume}, kAllows, {{{kUp}, {kJson}}}, "volumes lie between surfaces, without samples"},
     {{kDecode}, kExcludes, {{{kBand}}}, "decoding uses bands 1, 2 and 3"},
@@ -90,6 +92,9 @@ constexpr OptionRule kRules[] = {
      "the page holds all samples of a terrain of heights"},
     {{kMemory}, kExcludes, {{{kImage}}}, "images are read as a whole"},
     {{kMemory}, kExcludes, {{{kDrape}, {kNormalMap}}}, "the image is held as a whole"},
+    {{kMemory}, kExcludes, {{{kBreaklines}, {kWater}, {kDespike}, {kSolid}}}, kInParts, kEveryCommand, true},
+    {{kMemory}, kExcludes, {{{kCutline}, {kBoundary, "!hull"}, {kTolerance}, {kRoi}}}, kInParts, kEveryCommand, true},
+    {{kMemory}, kExcludes, {{{kErrorRaster}, {kLods}}}, kInParts, kEveryCommand, true},
     {{kOnePass}, kExcludes, {{{kBatch}}}, "one pass ranks all samples once, without the mesh"},
     {{kEdgeScore}, kNeeds, {{{kEdges, "data"}}}, "Delaunay edges ignore the heights"},
     {{kShapeThreshold}, kNeeds, {{{kEdges, "data"}}}, "Delaunay edges ignore the heights"},
@@ -141,9 +146,9 @@ Result<void> check_rule(const OptionRule& rule, const GivenOptions& given) {
   return fail(ErrorKind::kUsage, fmt::format("{} needs {}{}", describe(rule.one, given), needed, why));
 }
 
-Result<void> check_rules(Commands command, const GivenOptions& given) {
+Result<void> check_rules(Commands command, const GivenOptions& given, bool are_for_points) {
   for (const OptionRule& rule : kRules) {
-    if ((rule.commands & command) == 0) continue;
+    if ((rule.commands & command) == 0 || rule.is_for_points != are_for_points) continue;
     SCARP_RETURN_IF_ERROR(check_rule(rule, given));
   }
   return {};

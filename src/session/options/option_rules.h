@@ -20,13 +20,15 @@ struct OptionRule {
   std::array<OptionTerm, 4> others;
   const char* why = "";  ///< end of the message
   Commands commands = kEveryCommand;
+  bool is_for_points = false;  ///< true: only where the input holds points
 };
 
 std::span<const OptionRule> option_rules();
 
 /// Fails with kUsage if the options break the rule; the message is one sentence.
 Result<void> check_rule(const OptionRule& rule, const GivenOptions& given);
-/// Checks all rules of the command and fails at the first that is broken.
-Result<void> check_rules(Commands command, const GivenOptions& given);
+/// Checks all rules of the command, and fails at the first that is broken. `are_for_points`: those for points, or all
+/// others.
+Result<void> check_rules(Commands command, const GivenOptions& given, bool are_for_points);
 
 }  // namespace scarp::cli

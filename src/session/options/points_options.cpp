@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scarp/points.h"
+#include "session/options/option_rules.h"
 #include "session/text/point_classes.h"
 #include "session/text/text.h"
 
@@ -141,6 +142,9 @@ Result<void> check_kind_of_input(const GivenOptions& given) {
                 fmt::format("{} {}: {} {}", kErrorRaster, shell_word(*errors), input,
                             are_points ? "holds points, whose errors are a table: name it .csv"
                                        : "is read as a raster, whose errors are a raster: name it .tif"));
+  if (are_points) {
+    SCARP_RETURN_IF_ERROR(check_rules(given.command(), given, true));
+  }
   for (const OptionRow* row : given.given()) {
     // The other options of tiles apply to the raster that is made of the points.
     const bool is_of_reading = given.command() != kTile || row->group == OptionGroup::kInput;

@@ -115,6 +115,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_points(outcome.points, outcome.policy, outcome.duplicates);
+  report["input"]["points"] = outcome.count();
   report["input"]["on_hull"] = outcome.on_hull;
   report["input"]["lattice_step"] = outcome.lattice_step;
   report["input"]["boundary"] = outcome.boundary;
@@ -171,9 +172,9 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   const Measurement& measured = outcome.simplified.measurement;
   const HeightRange heights = height_range(outcome.points);
   std::string text = fmt::format("{} -> {}\n", base_name(outcome.points.path), plan.output);
-  text += summary_line(
-      "points", fmt::format("{}{}, heights {} to {}", format_count(outcome.points.size()), left_out(outcome.points),
-                            format_number(heights.min), format_number(heights.max)));
+  text += summary_line("points",
+                       fmt::format("{}{}, heights {} to {}", format_count(outcome.count()), left_out(outcome.points),
+                                   format_number(heights.min), format_number(heights.max)));
   if (!outcome.points.columns.empty()) text += summary_line("read as", outcome.points.columns);
   if (!outcome.points.lines.empty())
     text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
@@ -197,10 +198,10 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   text += summary_line("lattice step", format_number(outcome.lattice_step));
   text += files_lines(plan, files);
   if (outcome.cell_size) text += summary_line("cell size", format_number(*outcome.cell_size));
-  text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the {}", format_count(outcome.vertices),
-                                               format_share(static_cast<double>(outcome.vertices),
-                                                            static_cast<double>(outcome.points.size())),
-                                               format_count(outcome.on_hull), outcome.cut ? "boundary" : "hull"));
+  text += summary_line(
+      "vertices", fmt::format("{}, {} of the points, {} on the {}", format_count(outcome.vertices),
+                              format_share(static_cast<double>(outcome.vertices), static_cast<double>(outcome.count())),
+                              format_count(outcome.on_hull), outcome.cut ? "boundary" : "hull"));
   const std::string flats =
       fmt::format(", {} ({}) flat between points of equal height", format_count(outcome.flat),
                   format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));
@@ -238,6 +239,7 @@ Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_points(judged.points, judged.policy, judged.duplicates());
+  report["input"]["points"] = judged.count();
   report["frame"] = describe_frame(judged.points);
   report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
   report["vertices"] = judged.measured.vertices;
@@ -256,7 +258,7 @@ std::string make_table(const JudgedPoints& judged, const std::string& mesh_path)
   const Measurement& m = judged.measured;
   const auto line = [](const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); };
   std::string text = fmt::format("{} judged by {}, {}\n", base_name(mesh_path), base_name(judged.points.path),
-                                 format_plural(judged.points.size(), "point"));
+                                 format_plural(judged.count(), "point"));
   if (m.samples == 0) {
     text += line("max error", "none: no point is covered");
   } else {

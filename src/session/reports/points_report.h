@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scarp/height_field.h"
+#include "scarp/point_blocks.h"
 #include "scarp/points.h"
 #include "session/plan/simplify_plan.h"
 #include "session/reports/simplify_run.h"
@@ -24,7 +26,8 @@ std::optional<std::string> find_broken(const PointSet& points, const Measurement
 
 /// The result of simplify for points.
 struct PointsOutcome : SimplifyRun {
-  PointSet points;
+  PointSet points;                      ///< with --memory: some of them
+  std::unique_ptr<PointBlocks> blocks;  ///< all points; null: those in `points`
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   std::vector<PointLake> lakes;
@@ -38,6 +41,7 @@ struct PointsOutcome : SimplifyRun {
   Picture drape;                                ///< empty without a draped image
   std::optional<double> cell_size;              ///< for a raster as OUTPUT
 
+  std::uint64_t count() const { return blocks ? blocks->size() + duplicates : points.size(); }
   /// The frame of the mesh's x and y.
   std::string frame() const;
 };
@@ -49,7 +53,9 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
 
 /// The result of measure.
 struct JudgedPoints {
-  PointSet points;
+  PointSet points;                        ///< with --memory: some of them
+  std::unique_ptr<PointBlocks> blocks;    ///< all points but duplicates; null: those in `points`
+  std::uint64_t dropped_from_blocks = 0;  ///< duplicates
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   Mesh mesh;
   Measurement measured;
@@ -59,7 +65,8 @@ struct JudgedPoints {
   bool has_tolerances = false;        ///< with --tolerance or --roi
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
-  std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }
+  std::uint64_t count() const { return blocks ? blocks->size() + dropped_from_blocks : points.size(); }
+  std::uint64_t duplicates() const { return count() - measured.samples - measured.uncovered; }
 };
 
 /// The worst point above its tolerance. REQUIRES: there is one.

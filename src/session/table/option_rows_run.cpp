@@ -18,7 +18,10 @@ constexpr OptionRow kRunRows[] = {
      .by_default = "no limit",
      .range = "at least 72M",
      .is_of_mesh = false,
-     .help = "Memory limit, such as 1G. Larger rasters are streamed from their file. Some options do not allow this.",
+     .is_for_points = true,
+     .help =
+         "Memory limit, such as 1G. Larger rasters are streamed from their file, and points of LAS and LAZ files are "
+         "read in parts. Some options do not allow this.",
      .brief = "Memory limit, such as 1G"},
     {.id = OptionId::kMemory,
      .name = "--memory",
@@ -29,7 +32,9 @@ constexpr OptionRow kRunRows[] = {
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "no limit",
      .range = "at least 72M",
-     .help = "Memory limit, such as 1G. Larger rasters are read and judged in bands of rows.",
+     .is_for_points = true,
+     .help = "Memory limit, such as 1G. Larger rasters are read and judged in bands of rows, and points of LAS and LAZ "
+             "files in parts.",
      .brief = "Memory limit, such as 1G"},
 
     {.id = kSeed,

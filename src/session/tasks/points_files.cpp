@@ -61,7 +61,7 @@ double find_cell_size(const PointsOutcome& outcome) {
   }
   const Extent extent = extent_of(outcome.points);
   const double length = std::hypot(extent.high[0] - extent.low[0], extent.high[1] - extent.low[1]);
-  const auto count = static_cast<double>(outcome.points.size());
+  const auto count = static_cast<double>(outcome.count());
   const double distance = std::max(std::sqrt(area / count), length / count);  // points may follow a line
   const double power = std::pow(10, std::floor(std::log10(distance)));
   return power * (distance >= 5 * power ? 5 : distance >= 2 * power ? 2 : 1);

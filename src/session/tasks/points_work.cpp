@@ -8,10 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/point_blocks.h"
 #include "scarp/points.h"
+#include "session/inputs/memory.h"
 #include "session/inputs/mesh_place.h"
 #include "session/inputs/point_features.h"
 #include "session/options/error_goal.h"
+#include "session/options/memory_options.h"
+#include "session/options/option_rules.h"
 #include "session/options/raster_options.h"
 #include "session/options/region_options.h"
 #include "session/reports/shape_report.h"
@@ -54,6 +58,18 @@ Result<PointSet> read(const GivenOptions& given, const ReadOptions& as, const Pr
         fmt::format("{}: {} {} omits all {} points: each differs by more from its neighbours; choose a larger one",
                     points.path, kDespike, *given[kDespike], points.spikes));
   return points;
+}
+
+/// Sorts the points into blocks on disk. `limit`: of the memory.
+Result<SpooledPoints> read_in_parts(const GivenOptions& given, const ReadOptions& as, DuplicatePolicy policy,
+                                    std::uint64_t limit, const ProgressCallback& progress) {
+  constexpr std::uint64_t kBytesPerPoint = 120, kFewest = 1 << 15, kMost = 1 << 20;
+  SCARP_TRY(auto&& options, parse_points(given, as));
+  options.progress = progress;
+  const std::uint64_t most = std::clamp((limit - kProgramBytes) / 4 / kBytesPerPoint, kFewest, kMost);
+  auto spooled = spool_points(given.inputs(), options, policy, most);
+  if (!spooled) return tl::unexpected(name_limit(given, std::move(spooled.error())));
+  return spooled;
 }
 
 /// The value of --crs; empty: local for degrees, else the points' own.
@@ -166,8 +182,10 @@ Error explain_frame(Error error, const std::string& crs, const std::string& mesh
   return error;
 }
 
-/// Adds the path to the library's errors about points, which lack it.
-Error with_path(Error error, const std::string& path) {
+/// Adds the path to the library's errors about points, which lack it, and the option to those about memory.
+Error with_path(const GivenOptions& given, Error error) {
+  const std::string& path = given.input();
+  error = name_limit(given, std::move(error));
   if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
     error.message = fmt::format("{}: {}", path, error.message);
   return error;
@@ -191,10 +209,21 @@ double tolerance_along_boundary(const SimplifyPlan& plan, const PointSet& points
   return plan.error_goal ? plan.error_goal->absolute(relief) / 2 : kShareOfRelief * relief;
 }
 
-Result<SimplifiedPoints> make_level(const PointSet& points, const PointOptions& options, bool has_normals) {
-  SCARP_TRY(auto&& made, simplify_points(points, options));
+/// Simplifies all points of the outcome, which then has those that the run used.
+Result<SimplifiedPoints> make_from_blocks(const PointOptions& options, PointsOutcome& outcome) {
+  SCARP_TRY(auto&& simplified, simplify_points(*outcome.blocks, options));
+  outcome.points.x = std::move(simplified.kept.x);
+  outcome.points.y = std::move(simplified.kept.y);
+  outcome.points.z = std::move(simplified.kept.z);
+  simplified.made.duplicates = outcome.duplicates;
+  return std::move(simplified.made);
+}
+
+Result<SimplifiedPoints> make_level(const PointOptions& options, bool has_normals, PointsOutcome& outcome) {
+  SCARP_TRY(auto&& made,
+            outcome.blocks ? make_from_blocks(options, outcome) : simplify_points(outcome.points, options));
   if (has_normals) {
-    SCARP_TRY(made.simplified.mesh.normals, point_normals(points, made.simplified.mesh, options.duplicates));
+    SCARP_TRY(made.simplified.mesh.normals, point_normals(outcome.points, made.simplified.mesh, options.duplicates));
   }
   return std::move(made);
 }
@@ -204,6 +233,19 @@ Result<SimplifiedPoints> make_print(const SimplifyPlan& plan, const PointOptions
   if (!printed) return tl::unexpected(name_print(std::move(printed.error())));
   take_print(plan, std::move(printed->print), outcome);
   return std::move(printed->made);
+}
+
+/// Judges the mesh at all blocks; the worst point becomes the last of `judged.points`.
+Result<Measurement> measure_blocks(const MeasureOptions& options, JudgedPoints& judged) {
+  SCARP_TRY(auto&& made, measure_points(*judged.blocks, judged.mesh, options));
+  if (made.worst.size() > 0) {
+    made.measured.max_error_at = {static_cast<std::int32_t>(judged.points.size()), 0};
+    for (const auto& [values, worst] :
+         {std::pair{&judged.points.x, &made.worst.x}, std::pair{&judged.points.y, &made.worst.y},
+          std::pair{&judged.points.z, &made.worst.z}})
+      values->push_back(worst->front());
+  }
+  return std::move(made.measured);
 }
 
 /// For points, --cutline is another name for --boundary.
@@ -267,7 +309,15 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   outcome.boundary = given[kBoundary].value_or("hull");
   ReadOptions as = plan.read;
   as.crs = crs_option(plan);
-  SCARP_TRY(PointSet points, read(given, as, runner.progress));
+  PointSet points;
+  if (plan.memory) {
+    SCARP_TRY(auto&& spooled, read_in_parts(given, as, policy, *plan.memory, runner.progress));
+    points = std::move(spooled.facts);
+    outcome.blocks = std::move(spooled.blocks);
+    outcome.duplicates = spooled.duplicates;
+  } else {
+    SCARP_TRY(points, read(given, as, runner.progress));
+  }
   if (points.is_local && plan.read.crs.empty()) plan.read.crs = "local";
   SCARP_RETURN_IF_ERROR(check_unit_of_frame(plan.format, points.unit_in_metres));
   SCARP_RETURN_IF_ERROR(add_breaklines(given, policy, runner.progress, points));
@@ -321,10 +371,11 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   options.run.is_time_up = plan.simplify.run.is_time_up;
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = runner.progress;
+  if (plan.memory) options.run.memory = {.limit = *plan.memory, .taken = kProgramBytes};
   const bool has_normals = plan.simplify.output.normals;
   Result<SimplifiedPoints> simplified =
-      plan.solid ? make_print(plan, options, outcome) : make_level(outcome.points, options, has_normals);
-  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.input()));
+      plan.solid ? make_print(plan, options, outcome) : make_level(options, has_normals, outcome);
+  if (!simplified) return tl::unexpected(with_path(given, std::move(simplified.error())));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;
   outcome.on_hull = simplified->on_hull;
@@ -340,8 +391,8 @@ Result<void> make_points_mesh(const GivenOptions& stated, const Runner& runner, 
   warn_of_shapes(plan.simplify.quality.shape, outcome.simplified, outcome.warnings);
   for (int k = 1; plan.levels && k < plan.levels->count; ++k) {
     *options.max_error *= plan.levels->ratio;
-    Result<SimplifiedPoints> level = make_level(outcome.points, options, has_normals);
-    if (!level) return tl::unexpected(with_path(std::move(level.error()), given.input()));
+    Result<SimplifiedPoints> level = make_level(options, has_normals, outcome);
+    if (!level) return tl::unexpected(with_path(given, std::move(level.error())));
     outcome.coarser.push_back({options.max_error, std::move(level->simplified)});
   }
   Result<void> promise = check_promise(outcome);
@@ -397,8 +448,17 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   SCARP_TRY(const auto& boundary, parse_boundary(asked));
   const std::string path = given.input();
   SCARP_TRY(const auto as, remember_reading(given, judged.mesh, *given[kMesh]));
-  Result<PointSet> points = read(asked, as, runner.progress);
-  if (!points && points.error().kind == ErrorKind::kUsage) points = read(of_other_file, as, runner.progress);
+  SCARP_TRY(const auto& limit, parse_memory(given));
+  SCARP_RETURN_IF_ERROR(check_rules(given.command(), asked, true));
+  const auto read_as = [&](const GivenOptions& options) -> Result<PointSet> {
+    if (!limit) return read(options, as, runner.progress);
+    SCARP_TRY(auto&& spooled, read_in_parts(options, as, judged.policy, *limit, runner.progress));
+    judged.blocks = std::move(spooled.blocks);
+    judged.dropped_from_blocks = spooled.duplicates;
+    return std::move(spooled.facts);
+  };
+  Result<PointSet> points = read_as(asked);
+  if (!points && points.error().kind == ErrorKind::kUsage) points = read_as(of_other_file);
   if (!points && !given[kCrs] && !as.crs.empty())
     return tl::unexpected(explain_frame(std::move(points.error()), as.crs, *given[kMesh], path));
   SCARP_RETURN_IF_ERROR(points);
@@ -428,7 +488,8 @@ Result<void> judge_points(const GivenOptions& stated, const Runner& runner, Judg
   if (!tolerances.empty()) options.collect_above = std::numeric_limits<double>::infinity();
   judged.has_tolerances = find_tolerance(given).has_value();
   if (judged.errors) collect_errors(judged.points, judged.errors->bytes, options);
-  SCARP_TRY(judged.measured, measure_points(judged.points, judged.mesh, judged.policy, options));
+  SCARP_TRY(judged.measured, judged.blocks ? measure_blocks(options, judged)
+                                           : measure_points(judged.points, judged.mesh, judged.policy, options));
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
   if (!judged.broken && judged.measured.over_tolerance > 0)
