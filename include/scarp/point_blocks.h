@@ -37,12 +37,12 @@ struct SimplifiedBlocks {
 
 /// simplify_points() for points in blocks. The run uses every k-th point, at least every 16th, those at the hull, and
 /// of each k neighbours the highest and the lowest above a first mesh. Then all points are judged, block by block.
-/// Those that break the bound join the run, and refinement continues until none does. With high and max effort, the
-/// run's own bound is 0.9 of the max error, so that few points do. `options.run.memory` bounds the memory: k grows with
-/// the number of points.
+/// Those that break the bound join the run, and refinement continues until none does. A run that ends at a budget is
+/// repeated, at most four times, with points whose errors exceed its own. `options.run.memory` bounds the memory: k
+/// grows with the number of points.
 ///
 /// The mesh differs from that of simplify_points(), but has the same guarantees; without a bound, the reported errors
-/// are those at all points. Fails like simplify_points(); with kUsage for lines, tolerances, boundary_length and
+/// are those at all points. Fails like simplify_points(); with kUsage for high and max effort, tolerances, boundary_length and
 /// placement; with kMemory if the limit has no space for the points that the bound needs; and with the errors of
 /// read(). Cost: 5 to 10 reads of all blocks, and the run.
 Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointOptions& options);

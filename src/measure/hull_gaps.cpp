@@ -22,6 +22,7 @@ double turn(const Spot& a, const Spot& b, const Spot& c) {
 /// Omits spots that cannot be corners of the hull, since they are well inside the octagon of the outermost spots.
 template <class SpotOf>
 std::vector<Spot> find_outer(std::size_t count, const SpotOf& spot) {
+  if (count == 1) return {spot(0)};
   constexpr std::array<std::array<double, 2>, 8> kWays{
       {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
   std::array<Spot, 8> outermost;
@@ -100,13 +101,16 @@ PointSet hull_corners(const PointSet& points) {
   std::vector<Spot> spots = find_outer(points.size(), [&](std::size_t i) { return Spot{points.x[i], points.y[i]}; });
   sort_spots(spots);
   PointSet corners;
-  for (const double sign : {1, -1}) {
-    for (const Spot& corner : chain_of(spots, sign)) {
+  const auto add = [&](std::span<const Spot> chain) {
+    for (const Spot& corner : chain) {
       corners.x.push_back(corner.x);
       corners.y.push_back(corner.y);
       corners.z.push_back(0);
     }
-  }
+  };
+  add(chain_of(spots, 1));
+  if (const std::vector<Spot> upper = chain_of(spots, -1); upper.size() > 2)
+    add(std::span(upper).subspan(1, upper.size() - 2));
   return corners;
 }
 

@@ -165,6 +165,9 @@ class PointRun {
       if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
           !reporter_.report("refine", fraction(first_error), domain_.vertex_count(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
+      if (wider_ != nullptr && step % 1024 == 0) {
+        SCARP_RETURN_IF_ERROR(wider_->check_memory(domain_.vertex_count()));
+      }
       refinement_->insert_worst();
       ++insertions_;
       if (in_last_stretch() && refinement_->worst_error() <= best_.error)
@@ -380,15 +383,15 @@ class PointRun {
   /// Judges the mesh at all points of which those of the run are a part. If some break the bound, refinement continues
   /// with them. Returns true if none does.
   Result<bool> prove_at_all(Simplified& result) {
-    RunBound bound;
-    if (result.stop == StopReason::kMaxError || result.stop == StopReason::kExact) bound = {bound_, allowance()};
+    const bool has_bound = result.stop == StopReason::kMaxError || result.stop == StopReason::kExact;
+    const double bound = has_bound ? bound_ + allowance() : result.measurement.max_error;
     const std::vector<Point> before = snapped_.at;
     const auto start = Clock::now();
     SCARP_TRY(const bool has_grown, wider_->judge(result.mesh, bound, result.measurement));
     result.seconds_measure += seconds_since(start);
     result.judged_max_error = result.measurement.max_error;
     result.judged_rmse = result.measurement.rmse;
-    if (!has_grown) return true;
+    if (!has_grown || !has_bound) return true;
     forget_refinement();
     const auto renumber = [&](std::vector<std::uint32_t>& points) {
       for (std::uint32_t& point : points) {

@@ -242,13 +242,11 @@ Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointO
   SCARP_RETURN_IF_ERROR(run::check_point_options({}, options));
   run::WorkingSet working(blocks, options);
   SCARP_RETURN_IF_ERROR(working.find_extent());
-  const run::PointRecipe asked(working.points(), options);
-  PointOptions of_run = options;
-  // Vertices off the points leave errors near the bound everywhere, so many other points would break the bound itself.
-  const double share = asked.traits.moves_vertices ? 0.9 : 1;
-  if (of_run.max_error) *of_run.max_error *= share;
-  const run::PointRecipe recipe(working.points(), of_run);
-  SCARP_RETURN_IF_ERROR(working.start(recipe.steps, share));
+  const run::PointRecipe recipe(working.points(), options);
+  // Vertices off the points leave errors near the bound everywhere, so too many other points would break it.
+  if (recipe.traits.moves_vertices)
+    return fail(ErrorKind::kUsage, "high and max effort need all points at once, not in blocks: use normal effort");
+  SCARP_RETURN_IF_ERROR(working.start(recipe.steps));
   if (options.float32_positions) {
     SCARP_RETURN_IF_ERROR(round_heights(working.points(), working.snapped()));
   }
@@ -260,7 +258,15 @@ Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointO
     SCARP_RETURN_IF_ERROR(working.add_extremes(first.simplified.mesh));
   }
   SimplifiedBlocks result;
-  SCARP_TRY(result.made, run(recipe, &working));
+  // A run that ends at a budget leaves larger errors than its own at points that it did not use; they join the next.
+  constexpr int kMostRuns = 5;
+  for (int k = 0; k == 0 || (working.take_growth() && k < kMostRuns); ++k) {
+    SCARP_TRY(auto&& made, run(recipe, &working));
+    const auto error = [&](const SimplifiedPoints& of) {
+      return options.objective == Objective::kRms ? of.simplified.judged_rmse : of.simplified.judged_max_error;
+    };
+    if (k == 0 || error(made) < error(result.made)) result.made = std::move(made);
+  }
   result.made.points = blocks.size();
   result.made.duplicates = 0;
   result.kept = working.take_points();

@@ -16,8 +16,8 @@ namespace scarp::run {
 namespace {
 
 constexpr std::size_t kLeastGroup = 16;
-constexpr std::size_t kNeighbours = 8;         // on either side, in the order of the block
-constexpr std::uint64_t kBytesPerPoint = 110;  // at the peak of a run with `normal` effort
+constexpr std::size_t kNeighbours = 8;                                // on either side, in the order of the block
+constexpr std::uint64_t kBytesPerPoint = 110, kBytesPerVertex = 230;  // at the peak of a run with `normal` effort
 
 /// Calls visit(first, end) for groups of neighbours, in the order of the block.
 template <class Visit>
@@ -57,18 +57,19 @@ std::size_t WorkingSet::group_size() const {
   return std::max<std::size_t>(kLeastGroup, (3 * blocks_.size() + most - 1) / most);
 }
 
-Result<void> WorkingSet::check_memory() const {
+Result<void> WorkingSet::check_memory(std::uint64_t vertices) const {
   const Memory& memory = options_.run.memory;
-  if (memory.limit == 0 || memory.taken + kBytesPerPoint * points_.size() <= memory.limit) return {};
+  const std::uint64_t needed = memory.taken + kBytesPerPoint * points_.size() + kBytesPerVertex * vertices;
+  if (memory.limit == 0 || needed <= memory.limit) return {};
   return fail(ErrorKind::kMemory,
-              fmt::format("the memory limit has no space for the {} of {} points that this error needs: allow a larger "
-                          "max error, or at least {}M",
-                          points_.size(), blocks_.size(),
-                          (memory.taken + 2 * kBytesPerPoint * points_.size()) / 1'000'000 + 1));
+              fmt::format("the memory limit has no space for a mesh of {} vertices and {} of {} points: allow a larger "
+                          "max error, or more memory, such as {}M",
+                          vertices, std::min<std::uint64_t>(points_.size(), blocks_.size()), blocks_.size(),
+                          2 * memory.limit / 1'000'000));
 }
 
 Result<void> WorkingSet::snap() {
-  SCARP_RETURN_IF_ERROR(check_memory());
+  SCARP_RETURN_IF_ERROR(check_memory(0));
   SCARP_TRY(snapped_, grid::snap_points(points_, options_.duplicates, *lattice_));
   heights_ = snapped_.z;
   if (!options_.float32_positions) return {};
@@ -89,8 +90,7 @@ Result<void> WorkingSet::find_extent() {
   return finder_.check();
 }
 
-Result<void> WorkingSet::start(grid::PointSteps steps, double share) {
-  share_ = share;
+Result<void> WorkingSet::start(grid::PointSteps steps) {
   if (steps != grid::PointSteps::kFloat32) {
     SCARP_RETURN_IF_ERROR(visit([&](const PointSet& block) -> Result<void> {
       finder_.read(block);
@@ -102,7 +102,7 @@ Result<void> WorkingSet::start(grid::PointSteps steps, double share) {
     SCARP_TRY(const auto& snapped, grid::snap_points(block, options_.duplicates, *lattice_));
     for (const std::uint32_t corner : geom::convex_hull(snapped.at)) add(block, snapped.source[corner]);
     visit_groups(block.size(), group_size(), [&](std::size_t first, std::size_t) { add(block, first); });
-    return check_memory();
+    return check_memory(0);
   }));
   return snap();
 }
@@ -122,43 +122,39 @@ Result<void> WorkingSet::add_extremes(const Mesh& mesh) {
         if (extreme != first) add(block, extreme);
       }
     });
-    return check_memory();
+    return check_memory(0);
   }));
   return snap();
 }
 
-Result<bool> WorkingSet::judge(const Mesh& mesh, const RunBound& of_run, Measurement& result) {
+Result<bool> WorkingSet::judge(const Mesh& mesh, double bound, Measurement& result) {
   const std::size_t before = points_.size(), places = snapped_.size() + snapped_.echoes.size();
-  std::optional<double> bound;
-  if (of_run) {
-    const bool is_asked = of_run->error == share_ * options_.max_error.value_or(0);
-    bound = (is_asked ? options_.max_error.value_or(0) : of_run->error / share_) + of_run->allowance;
-  }
   MeasureOptions options;
   options.run.threads = options_.run.threads;
   options.run.progress = options_.run.progress;
   options.collect_above = bound;
   const auto see = [&](const PointSet& block, const std::vector<double>& errors) -> Result<void> {
-    if (!bound) return {};
     // Fitting may break the bound at neighbours of these points next.
     std::size_t added = 0;
     for (std::size_t i = 0; i < block.size(); ++i) {
-      if (std::abs(errors[i]) <= *bound) continue;
+      if (std::abs(errors[i]) <= bound) continue;
       const std::size_t first = std::max(added, i - std::min(i, kNeighbours));
       added = std::max(added, std::min(block.size(), i + kNeighbours + 1));
       for (std::size_t k = first; k < added; ++k) add(block, k);
     }
-    return check_memory();
+    return check_memory(0);
   };
   SCARP_TRY(const auto& worst, judge::judge_blocks(blocks_, mesh, coverage_tolerance(), options, see, result));
   const bool has_grown = points_.size() > before;
+  if (worst) {
+    add(*worst, 0);
+    result.max_error_at = {static_cast<std::int32_t>(points_.size() - 1), 0};
+  }
   if (has_grown) {
     SCARP_RETURN_IF_ERROR(snap());
     if (snapped_.size() + snapped_.echoes.size() == places)
       return fail(ErrorKind::kInternal, "a point of the run breaks the bound that holds at all its points");
-  } else if (worst) {
-    add(*worst, 0);
-    result.max_error_at = {static_cast<std::int32_t>(points_.size() - 1), 0};
+    has_grown_ = true;
   }
   return has_grown;
 }

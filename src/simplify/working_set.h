@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "grid/snapped_points.h"
@@ -24,13 +25,15 @@ class WorkingSet final : public WiderProof {
 
   /// Finds the extent. Afterwards, the set has the points with the least and largest coordinates and heights.
   Result<void> find_extent();
-  /// Finds the lattice. Afterwards, the set has every k-th point and the corners of the hull. `share`: bounds of the
-  /// run, as a share of those at all points.
-  Result<void> start(grid::PointSteps steps, double share);
+  /// Finds the lattice. Afterwards, the set has every k-th point and the corners of the hull.
+  Result<void> start(grid::PointSteps steps);
   /// Adds the highest and the lowest of k neighbours above a mesh.
   Result<void> add_extremes(const Mesh& mesh);
   std::uint64_t total() const override { return blocks_.size(); }
-  Result<bool> judge(const Mesh& mesh, const RunBound& of_run, Measurement& result) override;
+  Result<bool> judge(const Mesh& mesh, double bound, Measurement& result) override;
+  Result<void> check_memory(std::uint64_t vertices) const override;
+  /// True if points have joined the set since the last call.
+  bool take_growth() { return std::exchange(has_grown_, false); }
 
   const PointSet& points() const { return points_; }
   const grid::SnappedPoints& snapped() const { return snapped_; }
@@ -41,14 +44,13 @@ class WorkingSet final : public WiderProof {
  private:
   Result<void> visit(const std::function<Result<void>(const PointSet&)>& visit) const;
   Result<void> snap();
-  Result<void> check_memory() const;
   void add(const PointSet& block, std::size_t point);
   double coverage_tolerance() const;
   std::size_t group_size() const;  // k
 
   const PointBlocks& blocks_;
   const PointOptions& options_;
-  double share_ = 1;
+  bool has_grown_ = false;
   grid::LatticeFinder finder_;
   std::optional<grid::FoundLattice> lattice_;
   PointSet points_;

@@ -74,9 +74,7 @@ Parts any_parts(int most) {
   return {std::move(points), std::move(ends)};
 }
 
-Quality any_quality() {
-  return {.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh)};
-}
+Quality any_quality() { return {.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal)}; }
 
 /// False if all points are on one line; then nothing is guaranteed.
 bool has_area(const PointSet& points) {
@@ -121,7 +119,8 @@ RC_GTEST_PROP(point_blocks, have_the_errors_of_all_points_within_a_budget, ()) {
   at_worst.x = {result->kept.x[worst]};
   at_worst.y = {result->kept.y[worst]};
   at_worst.z = {result->kept.z[worst]};
-  RC_ASSERT(std::abs(testing::judge_by_brute_force(at_worst, made.mesh).second - judged.max_error) < 1e-5);
+  const auto [missed, error] = testing::judge_by_brute_force(at_worst, made.mesh);
+  RC_ASSERT(missed == 1 || std::abs(error - judged.max_error) < 1e-5);  // it may lie a rounding error outside the hull
 }
 
 RC_GTEST_PROP(point_blocks, give_one_mesh_for_any_number_of_threads, ()) {
@@ -163,6 +162,7 @@ TEST(PointBlocks, options_that_need_all_points_are_refused) {
   EXPECT_EQ(kind({.max_error = 1, .boundary_length = 0.5}), ErrorKind::kUsage);
   EXPECT_EQ(kind({.max_error = 1, .tolerances = tolerances}), ErrorKind::kUsage);
   EXPECT_EQ(kind({}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.max_error = 1, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
   EXPECT_EQ(simplify_points(Parts({}, {}), {.max_error = 1}).error().kind, ErrorKind::kInput);
   MeasureOptions judge;
   judge.collect_above = 1;

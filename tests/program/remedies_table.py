@@ -409,7 +409,7 @@ O("the extent of a synthetic raster", "scarp generate smooth 9 9 a.tif --te 1 2 
 
 # Parts of messages from other tests, or without a remedy.
 NOT_RUN = [
-    "with --memory, x and y do not become metres around their middle",  # a unit test reads such a LAS file
+    "with --memory, x and y cannot become metres around the middle of all points",  # a unit test reads such a LAS file
     "filling its nodata needs all samples in memory",  # message of the library that the program's refusal of
                                                        # --nodata-policy precedes
     # Messages of view, whose page is built by npm: test_view.sh.

@@ -57,6 +57,16 @@ cut = r["input"]["boundary_cut"]
 assert 10 <= cut["corners"] < 200 and cut["corners_beyond"] == 0 and 1500 < cut["points_outside"] < 3000, cut
 assert r["max_error"] <= 1 and r["uncovered"] == 0 and r["topology"]["sound"] and r["topology"]["border_loops"] == 2, r
 PY
+succeeds "$scarp" simplify survey.csv site.obj -e 1 --boundary site.geojson --crs source --report site.json -q
+succeeds "$scarp" measure survey.csv site.obj --boundary site.geojson --json
+cp "$logs/out" judged.json
+python3 - <<'PY' || fail "the report counts corners of the boundary as points"
+import json
+import math
+made, judged = json.load(open("site.json")), json.load(open("judged.json"))
+assert all(made[key] == judged[key] for key in ("samples", "max_error", "p95")), (made, judged)
+assert made["input"]["points"] == judged["input"]["points"] and math.isclose(made["rmse"], judged["rmse"]), (made, judged)
+PY
 succeeds "$scarp" simplify survey.csv wide.glb -e 1 --boundary wide.geojson
 grep -q '1 corner of --boundary lie up to 60' "$logs/err" || fail "no warning of a corner beyond the points"
 refuses 2 "needs polygons" "$scarp" simplify survey.csv x.glb -e 1 --boundary dike.geojson

@@ -69,7 +69,7 @@ TEST(PointSpool, blocks_have_the_points_that_count_at_each_place) {
     std::vector<Spot> expected;
     const std::vector<Spot> given = places_of(all);
     for (std::size_t i = 0; i < given.size(); ++i) {
-      const auto [x, y, z] = given[i];
+      const double x = std::get<0>(given[i]), y = std::get<1>(given[i]), z = std::get<2>(given[i]);
       const auto same = [&](const Spot& other) { return std::get<0>(other) == x && std::get<1>(other) == y; };
       const auto end = given.begin() + static_cast<std::ptrdiff_t>(i);
       const bool has_before = std::any_of(given.begin(), end, same),

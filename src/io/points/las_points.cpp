@@ -292,8 +292,8 @@ Result<PointSet> fill(std::span<const LasFile> files, PointSpool& spool) {
     SCARP_RETURN_IF_ERROR(file.place(facts));
     if (facts.is_local)
       return fail(ErrorKind::kUsage,
-                  fmt::format("{}: with --memory, x and y do not become metres around their middle, which the first "
-                              "points do not show: ask for --crs source, or for a CRS such as EPSG:32633",
+                  fmt::format("{}: with --memory, x and y cannot become metres around the middle of all points: ask "
+                              "for --crs source, or for a CRS such as EPSG:32633",
                               facts.path));
     if (all.size() == 0) {
       all = std::move(facts);

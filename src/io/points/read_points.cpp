@@ -267,7 +267,9 @@ Result<SpooledPoints> spool_points(std::span<const std::string> paths, const Rea
       files.push_back(std::move(file));
     }
   }
-  return io::spool_las_points(files, options, duplicates, most_in_block);
+  SCARP_TRY(auto&& spooled, io::spool_las_points(files, options, duplicates, most_in_block));
+  spooled.facts.path = paths.front();
+  return std::move(spooled);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + (paths.empty() ? "no points" : paths.front()));
 }

@@ -110,6 +110,10 @@ Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOpti
                            .threads = threads};
 }
 
+void name_others(std::size_t files, PointSet& points) {
+  if (files > 1) points.path += fmt::format(" and {} more", files - 1);
+}
+
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options) {
   const std::vector<std::string>& files = given.inputs();
   SCARP_TRY(PointSet points, read_points(files.front(), options));
@@ -117,7 +121,7 @@ Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions&
     SCARP_TRY(const PointSet& more, read_points(files[k], options));
     SCARP_RETURN_IF_ERROR(append_points(more, points));
   }
-  if (files.size() > 1) points.path += fmt::format(" and {} more", files.size() - 1);
+  name_others(files.size(), points);
   for (const std::string& outline : points.outlines) {
     if (given.has(kBoundary)) break;
     points.warnings.push_back(fmt::format("{} is a boundary that is not applied: {} {} ends the mesh there", outline,

@@ -22,6 +22,9 @@ Result<void> check_kind_of_input(const GivenOptions& given);
 /// of a raster. Fails with kUsage for an invalid value.
 Result<ReadPointsOptions> parse_points(const GivenOptions& given, const ReadOptions& as);
 
+/// Adds the number of other files to the path of the first of `files`.
+void name_others(std::size_t files, PointSet& points);
+
 /// The points of all inputs as one set. Without --boundary, warns of boundaries in the inputs. Fails if read_points()
 /// or append_points() fails.
 Result<PointSet> read_inputs(const GivenOptions& given, const ReadPointsOptions& options);

@@ -41,7 +41,7 @@ struct PointsOutcome : SimplifyRun {
   Picture drape;                                ///< empty without a draped image
   std::optional<double> cell_size;              ///< for a raster as OUTPUT
 
-  std::uint64_t count() const { return blocks ? blocks->size() + duplicates : points.size(); }
+  std::uint64_t count() const { return blocks ? blocks->size() + duplicates : points.size() - points.added; }
   /// The frame of the mesh's x and y.
   std::string frame() const;
 };

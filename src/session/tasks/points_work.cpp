@@ -69,6 +69,7 @@ Result<SpooledPoints> read_in_parts(const GivenOptions& given, const ReadOptions
   const std::uint64_t most = std::clamp((limit - kProgramBytes) / 4 / kBytesPerPoint, kFewest, kMost);
   auto spooled = spool_points(given.inputs(), options, policy, most);
   if (!spooled) return tl::unexpected(name_limit(given, std::move(spooled.error())));
+  name_others(given.inputs().size(), spooled->facts);
   return spooled;
 }
 
