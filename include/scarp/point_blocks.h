@@ -42,9 +42,9 @@ struct SimplifiedBlocks {
 /// grows with the number of points.
 ///
 /// The mesh differs from that of simplify_points(), but has the same guarantees; without a bound, the reported errors
-/// are those at all points. Fails like simplify_points(); with kUsage for high and max effort, tolerances, boundary_length and
-/// placement; with kMemory if the limit has no space for the points that the bound needs; and with the errors of
-/// read(). Cost: 5 to 10 reads of all blocks, and the run.
+/// are those at all points. Fails like simplify_points(); with kUsage for high and max effort, tolerances,
+/// boundary_length and placement; with kMemory if the limit has no space for the points that the bound needs; and with
+/// the errors of read(). Cost: 5 to 10 reads of all blocks, and the run.
 Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointOptions& options);
 
 struct MeasuredBlocks {

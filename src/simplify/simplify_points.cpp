@@ -260,7 +260,11 @@ Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointO
   SimplifiedBlocks result;
   // A run that ends at a budget leaves larger errors than its own at points that it did not use; they join the next.
   constexpr int kMostRuns = 5;
-  for (int k = 0; k == 0 || (working.take_growth() && k < kMostRuns); ++k) {
+  const auto ended_at_budget = [&] {
+    const StopReason stop = result.made.simplified.stop;
+    return stop != StopReason::kMaxError && stop != StopReason::kExact;
+  };
+  for (int k = 0; k == 0 || (k < kMostRuns && ended_at_budget() && working.take_growth()); ++k) {
     SCARP_TRY(auto&& made, run(recipe, &working));
     const auto error = [&](const SimplifiedPoints& of) {
       return options.objective == Objective::kRms ? of.simplified.judged_rmse : of.simplified.judged_max_error;
