@@ -1,5 +1,14 @@
 // Make a mesh from more points than memory holds. spool_points() of io.h sorts the points of LAS and LAZ files into
 // blocks on disk.
+//
+// Example:
+//     const std::string files[] = {"ground.las"};
+//     SCARP_TRY(const auto& flight, scarp::spool_points(files, {}, scarp::DuplicatePolicy::kFirst, 1'000'000));
+//     scarp::PointOptions options{.max_error = 0.5};
+//     options.run.memory.limit = 2'000'000'000;
+//     SCARP_TRY(const auto& terrain, scarp::simplify_points(*flight.blocks, options));
+//     std::printf("%zu triangles for %llu points\n", terrain.made.simplified.mesh.triangle_count(),
+//                 static_cast<unsigned long long>(terrain.made.points));
 #pragma once
 
 #include <cstddef>
