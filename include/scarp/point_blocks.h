@@ -35,7 +35,8 @@ class PointBlocks {
   /// Number of points in all blocks.
   virtual std::uint64_t size() const = 0;
   virtual std::size_t block_count() const = 0;
-  /// The points of a block, finite, in the order of sort_points(), without lines. Every call returns the same points.
+  /// The points of a block, finite, without lines; successive points are mostly neighbours. Every call returns the same
+  /// points.
   virtual Result<PointSet> read(std::size_t block) const = 0;
 };
 

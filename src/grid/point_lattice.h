@@ -98,7 +98,6 @@ class LatticeFinder {
 
   const AxisExtent& x() const { return x_; }
   const AxisExtent& y() const { return y_; }
-  const AxisExtent& z() const { return z_; }
 
  private:
   std::optional<FoundLattice> find_decimal(PointSteps steps) const;
