@@ -187,6 +187,22 @@ def square_cell(row, scarp):
     return f"{float(row['ratio']):.2f}, {float(row['max_error']) / float(scarp['max_error']):.2f}{marks}"
 
 
+def optimum_table(rows):
+    """Triangles relative to the optimum by effort and size, and the best and the worst field."""
+    sizes = values(rows, "optimum")
+    lines = []
+    for effort in values(rows, "effort"):
+        of_effort = [row for row in rows if row["effort"] == effort]
+        means = [geometric_mean([float(row["ratio"]) for row in of_effort if row["optimum"] == size]) for size in sizes]
+        ends = [sorted(of_effort, key=lambda row: float(row["ratio"]))[i] for i in (0, -1)]
+        lines.append([f"`{effort}`" if effort != "greedy" else effort, *(f"{mean:.2f}" for mean in means),
+                      " … ".join(f"{float(row['ratio']):.2f} ({row['field']})" for row in ends),
+                      f"{statistics.median(float(row['rmse']) / float(row['max_error_asked']) for row in of_effort):.2f}",
+                      f"{statistics.median(float(row['angle_median']) for row in of_effort):.0f}°"])
+    return markdown(["triangles ÷ optimum", *(f"optimum of {int(size):,}" for size in sizes), "least and most",
+                     "median of RMSE ÷ max error", "median of the smallest angles"], lines)
+
+
 WORST = 12  # rows of the table
 
 
@@ -385,6 +401,7 @@ def tables():
     return {
         "efforts": efforts.summary(), "angles": efforts.angles(), "peers": Peers().summary(), "budget_summary": budgets.summary(),
         "squares": Squares().table(), "high_normal": floors.worst(), "floor_angles": floors.angles(),
+        "optimum": optimum_table(of("optimum")),
         "cliffs": cliff_table(of("cliffs")), "ridges": ridge_table(of("ridges")), "images": image_table(of("images")),
         **{f"pictures_{scene}": picture_table([row for row in pictures if row["scene"] == scene]) for scene in values(pictures, "scene")},
         "spread": spread_lines(read_table(SPEED / "results.csv")), "orders": order_table(of("orders")),

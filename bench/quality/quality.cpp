@@ -3,8 +3,8 @@
 //
 //   scarp_quality PROJECT SUITE [NAME...]     all rasters of the suite, or the named ones, whose rows are replaced
 //
-// SUITE: efforts, budgets, high_normal, edges, orders, ridges, pictures. Exit code 2: a raster is missing and its rows
-// are unchanged; 3: a mesh is faulty.
+// SUITE: efforts, budgets, high_normal, edges, optimum, orders, ridges, pictures. Exit code 2: a raster is missing and
+// its rows are unchanged; 3: a mesh is faulty.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace bench {
 namespace {
 
-constexpr std::array kSuites{&kEfforts, &kBudgets, &kHighNormal, &kEdges, &kOrders, &kRidges, &kPictures};
+constexpr std::array kSuites{&kEfforts, &kBudgets, &kHighNormal, &kEdges, &kOptimum, &kOrders, &kRidges, &kPictures};
 
 double smallest_angle(const scarp::Mesh& mesh, std::size_t triangle) {
   std::array<std::array<double, 2>, 3> at{};

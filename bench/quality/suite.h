@@ -41,7 +41,8 @@ struct Suite {
   std::vector<std::string> (*names)(const std::filesystem::path& project);
   void (*measure)(const std::string& name, const scarp::OwnedHeightField& field, Rows& rows);
   /// Reads a raster by name; null: one of find_raster() or a style of `scarp generate`.
-  scarp::Result<scarp::OwnedHeightField> (*read)(const std::filesystem::path& project, const std::string& name) = nullptr;
+  scarp::Result<scarp::OwnedHeightField> (*read)(const std::filesystem::path& project,
+                                                 const std::string& name) = nullptr;
 };
 
 /// The names in PROJECT/bench/quality/LIST.txt.
@@ -65,6 +66,6 @@ Made make(const std::string& what, const scarp::OwnedHeightField& field, const s
 
 inline double relief_of(const scarp::OwnedHeightField& field) { return field.info.max - field.info.min; }
 
-extern const Suite kEfforts, kBudgets, kHighNormal, kEdges, kOrders, kRidges, kPictures;
+extern const Suite kEfforts, kBudgets, kHighNormal, kEdges, kOptimum, kOrders, kRidges, kPictures;
 
 }  // namespace bench

@@ -22,6 +22,7 @@ inline constexpr Variant kVariants[] = {
     {"greedy", scarp::Order::kGreedy, scarp::Effort::kFast, "samples"},
     {"fast", scarp::Order::kAuto, scarp::Effort::kFast, "samples"},
     {"normal", scarp::Order::kAuto, scarp::Effort::kNormal, "samples"},
+    {"normal free", scarp::Order::kAuto, scarp::Effort::kNormal, "free"},
     {"high on samples", scarp::Order::kAuto, scarp::Effort::kHigh, "samples"},
     {"high", scarp::Order::kAuto, scarp::Effort::kHigh, "free"},
     {"max", scarp::Order::kAuto, scarp::Effort::kMax, "free", 100'000},

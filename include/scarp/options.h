@@ -146,21 +146,21 @@ enum class Effort {
 enum class Vertices {
   kAuto,     ///< kFree for kHigh and kMax in affine frames without channels; else kSamples
   kSamples,  ///< on samples, with their heights
-  kFree,     ///< also between samples, in steps of an eighth of a sample, with optimised float32 heights. Only for
-             ///< kHigh and kMax, in affine frames without channels. Corners, and vertices on outlines of nodata, remain
+  kFree,     ///< also between samples, in steps of an eighth of a sample, with optimised float32 heights. Only in
+             ///< affine frames without channels, and not for kFast. Corners, and vertices on outlines of nodata, remain
              ///< on samples
 };
 
 struct Quality {
   /// DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
-  /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
+  /// kFree fails with kUsage for kFast. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
   /// Lower bound for the shape of triangles (height over longest edge), 0 … 0.5, 0 for none. No removal, move or flip
   /// makes a triangle below this bound, unless it removes an equally bad triangle. Triangles of refinement, and those
   /// forced by the outline of nodata, may lie below the bound. The default bound is weaker: kNormal's removals ignore
-  /// it, and it has no effect if more than 15 % of the triangles then lie below it. DEFAULT: 0.1 where vertices are
-  /// free, else 0.
+  /// it, and it has no effect if more than 15 % of the triangles then lie below it. DEFAULT: 0.1 for kHigh and kMax
+  /// where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
   /// Goals for angles, edge lengths and their growth, for simulations: vertices are added until the goals hold, then
   /// removed while the goals hold (with a grade, in reverse order). With a budget, simplify() searches for an error, as

@@ -45,8 +45,8 @@ struct FitDepth {
 
 inline constexpr FitDepth kNormalDepth{true};
 /// bench/quality/efforts.csv lists the share of greedy's triangles and the time for each depth.
-inline constexpr FitDepth kHighDepth{true, 2, {6, 3, false, true}, 9};
-inline constexpr FitDepth kMaxDepth{true, 3, {6, 3, true, true, true, 4}, 9};
+inline constexpr FitDepth kHighDepth{true, 2, {10, 3, false, true}, 9};
+inline constexpr FitDepth kMaxDepth{true, 3, {10, 3, true, true, true, 4, 0.03}, 9};
 
 inline constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 

@@ -6,7 +6,9 @@
 // Over the 44 cases of bench/quality/efforts.csv with less than a quarter of the full grid, except the largest raster,
 // 0.522 of greedy's triangles remain instead of 0.562, in 1.28 times the time of the whole simplify(). With steps by Σ
 // t², 0.529 remain. An earlier sweep of flips gains nothing. A second step and removal leave 2 % fewer triangles, for
-// half as much time again.
+// half as much time again. Steps to places between samples instead, with heights of their own (normal effort with free
+// vertices), leave 0.967 times the triangles on 16 cases of terrain, and 0.83 times on the fields of
+// bench/quality/optimum.cpp, in 1.15 times the time.
 #pragma once
 
 #include <cstdint>

@@ -46,8 +46,9 @@ class RemovalQueue {
 
  private:
   struct Note {
-    std::uint64_t code = 0;  // the triangles that would replace the vertex
-    Point witness;           // sample that last prevented its removal
+    std::uint64_t code = 0;  // the triangles that would replace the vertex, if its ring begins with `first`
+    Patch::Id first = tin::kNone;
+    Point witness;  // sample that last prevented its removal
   };
 
   /// True if v's ring has a triangulation. Stores v's star in star_ and the best triangles in search_.
@@ -62,6 +63,7 @@ class RemovalQueue {
     for (const Patch::Id corner : star_.ring) ring_.push_back(patch_.at(corner));
     if (!search_.find(ring_, patch_.at(v), note.witness)) return false;
     note.code = search_.code();
+    note.first = star_.ring.front();
     float now = 0;
     for (const Patch::Id f : star_.faces) now += pass.energy_of(f);
     price = search_.energy() - now;
@@ -78,8 +80,9 @@ class RemovalQueue {
   template <class Pass>
   void take(Pass& pass) {
     const Patch::Id v = queue_.pop();
-    if (!queue_.is_stale(v)) {
-      patch_.find_star(v, star_);
+    patch_.find_star(v, star_);
+    // Two flips that cancel each other change no triangle, but may change where a ring begins.
+    if (!queue_.is_stale(v) && star_.ring.front() == notes_[v].first) {
       RingSearch::decode(notes_[v].code, star_.ring.size(), triangles_);
       remove(v, pass);
       return;

@@ -10,11 +10,17 @@ namespace {
 
 /// Errors above this, in thresholds, justify a flip.
 constexpr double kWorthChange = 0.9;
-/// The largest excess for which repair continues, before the first round and after each. Above it, less than a tenth of
-/// the cases could be repaired. The last value applies to all further rounds.
-constexpr std::array<double, 5> kHopes{2.5, 1, 0.42, 0.22, 0.11};
+/// The first limits of the excess, before the first round and after each. On terrain less than a tenth of the cases
+/// above them could be repaired. The last value applies to all further rounds.
+constexpr std::array<double, 5> kFirstLimits{2.5, 1, 0.42, 0.22, 0.11};
+/// Excesses above this share of their limit are near it.
+constexpr double kNearLimit = 0.6;
+/// The rate at which a limit changes, and the share of its first value to which it may fall.
+constexpr double kLearning = 0.2, kLeastLimit = 0.7;
 
-double hope_after(int rounds) { return kHopes[std::min(static_cast<std::size_t>(rounds), kHopes.size() - 1)]; }
+double first_limit(const RepairDepth& depth, std::size_t round) {
+  return depth.patience * kFirstLimits[std::min(round, kFirstLimits.size() - 1)];
+}
 
 }  // namespace
 
@@ -80,20 +86,44 @@ void Repair::mend_all() {
   for (const Patch::Id v : ring_) flip_around(v, 0);
 }
 
+std::vector<double> Repair::first_limits(const RepairDepth& depth) {
+  std::vector<double> limits;
+  for (std::size_t round = 0; round < static_cast<std::size_t>(depth.rounds); ++round)
+    limits.push_back(first_limit(depth, round));
+  return limits;
+}
+
 bool Repair::mend() {
   if (depth_.mends_all) {
     mend_all();
     return !excess().any;
   }
+  excesses_.clear();
+  const bool is_repaired = mend_by_rounds();
+  learn(is_repaired);
+  return is_repaired;
+}
+
+bool Repair::mend_by_rounds() {
   for (int round = 0;; ++round) {
     const Excess left = excess();
     if (!left.any) return true;
-    if (round == depth_.rounds || left.sum > depth_.patience * hope_after(round)) return false;
+    if (round == depth_.rounds || left.sum > limits_[static_cast<std::size_t>(round)]) return false;
+    excesses_.push_back(left.sum);
     for (const Patch::Id v : ring_) {
       if (is_strained(v, 1) && step_.improve(loose_, v)) moved_.push_back(v);
     }
     for (const Patch::Id v : ring_) flip_around(v, kWorthChange);
     if (depth_.probes && round % 2 == 1) look_around(round);
+  }
+}
+
+void Repair::learn(bool is_repaired) {
+  const double factor = 1 + kLearning * ((is_repaired ? 1 : 0) - depth_.worth);
+  for (std::size_t round = 0; round < excesses_.size(); ++round) {
+    double& limit = limits_[round];
+    if (excesses_[round] > kNearLimit * limit)
+      limit = std::max(kLeastLimit * first_limit(depth_, round), factor * limit);
   }
 }
 

@@ -80,14 +80,14 @@ Rounds::Rounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexL
 }
 
 bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
-  return work_on(grid, end, fitted_.lattice.steps,
+  return work_on(grid, end, relocates ? steps_of(relocation_freedom()) : fitted_.lattice.steps,
                  [&](Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error) {
                    return remove(patch, vertices, error, relocates);
                  });
 }
 
 bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held) {
-  return work_on(grid, end, steps_of_moves(),
+  return work_on(grid, end, steps_of(rules_.freedom),
                  [&](Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error) {
                    // A single bound, outside the range of energies.
                    if (!error.has_energy()) return FitCounts{};
@@ -117,7 +117,7 @@ bool Rounds::work_twice(const PatchGrid& grid, double end, Prepare prepare, Betw
         patches[i].pack();
       }))
     return false;
-  join(cutter, std::move(patches), std::move(vertices), steps_of_moves());
+  join(cutter, std::move(patches), std::move(vertices), steps_of(rules_.freedom));
   fitted_.counts.removed = vertices_ - std::min<std::uint64_t>(vertices_, fitted_.tin.vertex_count());
   return true;
 }
@@ -175,8 +175,8 @@ void Rounds::join(const PatchCutter& cutter, std::vector<Patch> patches, std::ve
   fitted_.lattice = std::move(lattice);
 }
 
-std::int32_t Rounds::steps_of_moves() const {
-  return rules_.freedom == Freedom::kLattice ? grid::kLatticeSteps : fitted_.lattice.steps;
+std::int32_t Rounds::steps_of(Freedom freedom) const {
+  return freedom == Freedom::kLattice ? grid::kLatticeSteps : fitted_.lattice.steps;
 }
 
 bool Rounds::is_worked_on(const Patch& patch) const {
@@ -201,6 +201,9 @@ void Rounds::add(const FitCounts& counts) {
   fitted_.counts.tried += counts.tried;
 }
 
+/// Before rounds of repair, which move vertices off their samples, relocation to samples leaves fewer triangles.
+Freedom Rounds::relocation_freedom() const { return options_.depth.rounds > 0 ? Freedom::kSamples : rules_.freedom; }
+
 /// A vertex that is free in one patch is in no other, so patches write to separate elements.
 FitCounts Rounds::remove(Patch& patch, const std::vector<tin::Vertex>& vertices, const TriangleError& error,
                          bool relocates) {
@@ -211,7 +214,7 @@ FitCounts Rounds::remove(Patch& patch, const std::vector<tin::Vertex>& vertices,
   if (options_.floor_yields) shape.floor = 0;
   RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
   if (relocates && error.has_energy() && !is_time_up()) {
-    relocate_vertices(patch, error, {Freedom::kSamples, shape}, settled);
+    relocate_vertices(patch, error, {relocation_freedom(), shape, rules_.lowest, rules_.highest}, settled);
     const RemovalCounts more = remove_vertices(patch, error, shape, options_.is_time_up, settled);
     counts.removed += more.removed;
     counts.searches += more.searches;

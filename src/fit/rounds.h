@@ -55,7 +55,8 @@ class Rounds {
   bool is_worked_on(const Patch& patch) const;
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
   PatchCutter cutter(const PatchGrid& grid) const;
-  std::int32_t steps_of_moves() const;
+  std::int32_t steps_of(Freedom freedom) const;
+  Freedom relocation_freedom() const;
   bool each_patch(std::size_t count, double begin, double end,
                   FunctionRef<void(std::size_t i, std::size_t worker)> one);
   void join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<tin::Vertex>> vertices,

@@ -43,40 +43,47 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls sums.add(t, λ) for every four samples; both are 0 where masked.
+/// Calls add(t, λ) for every four samples: of `low_sums` for the first four of eight, of `high_sums` for the others.
+/// Both values are 0 where masked.
 template <class Sums>
-Sums ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, Sums sums) {
+void ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, Sums& low_sums,
+         Sums& high_sums) {
   TriangleScan scan(task, rows.end);
   each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const Floats row = all(1 + weight.slope_y * (static_cast<float>(y) - task.base_y));
-    const auto give = [&](Floats offset, Floats error, Masks counts) {
+    const auto give = [&](Sums& sums, Floats offset, Floats error, Masks counts) {
       const Floats share = row + all(weight.slope_x) * offset;
       sums.add(kept(error, counts) * all(weight.per_threshold), kept(share, counts));
     };
     scan.each_eight(rows.first + y * rows.stride, y, first, last,
                     [&](std::int32_t, Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-                      give(left, low, low_meant & (low == low));
-                      give(left + all(4), high, high_meant & (high == high));
+                      give(low_sums, left, low, low_meant & (low == low));
+                      give(high_sums, left + all(4), high, high_meant & (high == high));
                     });
     return true;
   });
-  return sums;
 }
 
 template <class Sums>
 CornerPull pull(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight) {
-  const Sums sums = ask(task, rows, weight, Sums{});
+  Sums sums;
+  ask(task, rows, weight, sums, sums);
   return {exact_sum_of(sums.stiffness), exact_sum_of(sums.push)};
 }
 
 template <class Sums>
 void add_moments(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
                  TriangleError::Moments& moments) {
-  add_up(ask(task, rows, weight, Sums{}), moments);
+  Sums low_sums, high_sums;
+  ask(task, rows, weight, low_sums, high_sums);
+  low_sums.join(high_sums);
+  add_up(low_sums, moments);
 }
 
 void narrow(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, TriangleError::Room& room) {
-  room = ask(task, rows, weight, RoomLeft(room)).room();
+  RoomLeft left(room);
+  ask(task, rows, weight, left, left);
+  room = left.room();
 }
 
 }  // namespace

@@ -55,18 +55,32 @@ struct EightSums {
   HWY_INLINE EightSums() {
     for (std::size_t p = 0; p < kParts; ++p) part[p] = hn::Zero(Wide());
   }
+  template <std::size_t kPart>
+  HWY_INLINE void add_to(WideVec terms) {
+    part[kPart] = hn::Add(part[kPart], terms);
+  }
 };
 
-/// Adds eight sums. The order is part of the result.
-HWY_INLINE float sum_of(const EightSums& sums) {
+/// The first four of eight sums plus the others. The order is part of the result.
+HWY_INLINE FourVec halves_of(const EightSums& sums) {
 #if HWY_MAX_BYTES > 16
-  const auto s = hn::Add(low_of(sums.part[0]), high_of(sums.part[0]));
+  return hn::Add(low_of(sums.part[0]), high_of(sums.part[0]));
 #else
-  const auto s = hn::Add(sums.part[0], sums.part[1]);
+  return hn::Add(sums.part[0], sums.part[1]);
 #endif
+}
+
+HWY_INLINE float sum_of(const EightSums& sums) {
+  const auto s = halves_of(sums);
   const auto pairs = hn::Add(s, hn::Shuffle1032(s));
   const float sum = hn::GetLane(hn::Add(pairs, hn::Shuffle2301(pairs)));
   return sum > std::numeric_limits<float>::max() ? std::numeric_limits<float>::max() : sum;
+}
+
+HWY_INLINE double exact_sum_of(FourVec sums) {
+  float s[4];
+  hn::StoreU(sums, Four(), s);
+  return (double{s[0]} + s[2]) + (double{s[1]} + s[3]);
 }
 
 /// Sums in four parts. The first four of eight samples are added before the others.
@@ -80,11 +94,6 @@ struct FourSums {
 #else
     sums = hn::Add(sums, terms);
 #endif
-  }
-  HWY_INLINE double total() const {
-    float s[4];
-    hn::StoreU(sums, Four(), s);
-    return (double{s[0]} + s[2]) + (double{s[1]} + s[3]);
   }
 };
 
@@ -184,7 +193,7 @@ struct SquareSums : EightSums {
   HWY_INLINE SquareSums() {}
   template <std::size_t kPart>
   HWY_INLINE void add(WideVec error, float) {
-    part[kPart] = hn::Add(part[kPart], hn::Mul(error, error));
+    add_to<kPart>(hn::Mul(error, error));
   }
   HWY_INLINE float energy(float per_square) const { return sum_of(*this) * per_square; }
 };
@@ -194,7 +203,7 @@ struct EighthSums : EightSums {
   template <std::size_t kPart>
   HWY_INLINE void add(WideVec error, float per_square) {
     const auto square = hn::Mul(hn::Mul(error, error), all(per_square)), fourth = hn::Mul(square, square);
-    part[kPart] = hn::Add(part[kPart], hn::Mul(fourth, fourth));
+    add_to<kPart>(hn::Mul(fourth, fourth));
   }
   HWY_INLINE float energy(float) const { return sum_of(*this); }
 };
@@ -245,8 +254,8 @@ TriangleSums assess(const TriangleTask& task, const SampleRows& rows, const Erro
   return result;
 }
 
-/// Calls asks.add(t, λ) for each vector of samples: errors in thresholds, and their change per unit rise of the first
-/// corner; both are 0 where masked.
+/// Calls asks.add<part>(t, λ) for each vector of samples: errors in thresholds, and their change per unit rise of the
+/// first corner; both are 0 where masked.
 template <class Asks>
 struct Residuals {
   RowScan scan;
@@ -256,11 +265,12 @@ struct Residuals {
   HWY_INLINE Residuals(const TriangleTask& task, const SampleRows& samples, const CornerWeight& of, const Asks& begin)
       : scan(task, samples), weight(of), asks(begin) {}
 
-  template <std::size_t>
+  template <std::size_t kPart>
   HWY_INLINE void samples(float down, WideVec offsets, WideVec errors, hn::Mask<Wide> meant) {
     const auto share = hn::Add(all(1 + weight.slope_y * down), hn::Mul(all(weight.slope_x), offsets));
     const auto counts = hn::And(meant, hn::Eq(errors, errors));
-    asks.add(hn::Mul(hn::IfThenElseZero(counts, errors), all(weight.per_threshold)), hn::IfThenElseZero(counts, share));
+    asks.template add<kPart>(hn::Mul(hn::IfThenElseZero(counts, errors), all(weight.per_threshold)),
+                             hn::IfThenElseZero(counts, share));
   }
   HWY_INLINE bool row(std::int32_t y, std::int32_t first, std::int32_t last) {
     scan.each_vector(y, first, last, *this);
@@ -279,6 +289,7 @@ struct SquarePull {
   FourSums stiffness, push;
 
   HWY_INLINE SquarePull() {}
+  template <std::size_t>
   HWY_INLINE void add(WideVec t, WideVec share) {
     stiffness.add(hn::Mul(share, share));
     push.add(hn::Mul(share, t));
@@ -289,6 +300,7 @@ struct EighthPull {
   FourSums stiffness, push;
 
   HWY_INLINE EighthPull() {}
+  template <std::size_t>
   HWY_INLINE void add(WideVec t, WideVec share) {
     const auto t2 = hn::Mul(t, t), weighed = hn::Mul(hn::Mul(hn::Mul(t2, t2), t2), share);
     stiffness.add(hn::Mul(weighed, share));
@@ -299,36 +311,38 @@ struct EighthPull {
 template <class Asks>
 CornerPull pull(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight) {
   const Asks asked = ask(task, rows, weight, Asks());
-  return {asked.stiffness.total(), asked.push.total()};
+  return {exact_sum_of(asked.stiffness.sums), exact_sum_of(asked.push.sums)};
 }
 
 struct SquareMoments {
-  FourSums sums[3];
+  EightSums sums[3];
 
   HWY_INLINE SquareMoments() {}
+  template <std::size_t kPart>
   HWY_INLINE void add(WideVec t, WideVec share) {
-    sums[0].add(hn::Mul(t, t));
-    sums[1].add(hn::Mul(t, share));
-    sums[2].add(hn::Mul(share, share));
+    sums[0].add_to<kPart>(hn::Mul(t, t));
+    sums[1].add_to<kPart>(hn::Mul(t, share));
+    sums[2].add_to<kPart>(hn::Mul(share, share));
   }
 };
 
 struct EighthMoments {
-  FourSums sums[9];
+  EightSums sums[9];
 
   HWY_INLINE EighthMoments() {}
+  template <std::size_t kPart>
   HWY_INLINE void add(WideVec t, WideVec share) {
     const auto t2 = hn::Mul(t, t), t4 = hn::Mul(t2, t2), share2 = hn::Mul(share, share),
                share4 = hn::Mul(share2, share2), both = hn::Mul(t, share);
-    sums[0].add(hn::Mul(t4, t4));
-    sums[1].add(hn::Mul(hn::Mul(t4, t2), both));
-    sums[2].add(hn::Mul(hn::Mul(t4, t2), share2));
-    sums[3].add(hn::Mul(hn::Mul(t4, both), share2));
-    sums[4].add(hn::Mul(t4, share4));
-    sums[5].add(hn::Mul(hn::Mul(t2, both), share4));
-    sums[6].add(hn::Mul(hn::Mul(t2, share4), share2));
-    sums[7].add(hn::Mul(hn::Mul(both, share4), share2));
-    sums[8].add(hn::Mul(share4, share4));
+    sums[0].add_to<kPart>(hn::Mul(t4, t4));
+    sums[1].add_to<kPart>(hn::Mul(hn::Mul(t4, t2), both));
+    sums[2].add_to<kPart>(hn::Mul(hn::Mul(t4, t2), share2));
+    sums[3].add_to<kPart>(hn::Mul(hn::Mul(t4, both), share2));
+    sums[4].add_to<kPart>(hn::Mul(t4, share4));
+    sums[5].add_to<kPart>(hn::Mul(hn::Mul(t2, both), share4));
+    sums[6].add_to<kPart>(hn::Mul(hn::Mul(t2, share4), share2));
+    sums[7].add_to<kPart>(hn::Mul(hn::Mul(both, share4), share2));
+    sums[8].add_to<kPart>(hn::Mul(share4, share4));
   }
 };
 
@@ -336,12 +350,14 @@ template <class Asks>
 void add_moments(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
                  TriangleError::Moments& moments) {
   const Asks asked = ask(task, rows, weight, Asks());
-  for (std::size_t k = 0; k < sizeof asked.sums / sizeof asked.sums[0]; ++k) moments[k] += asked.sums[k].total();
+  for (std::size_t k = 0; k < sizeof asked.sums / sizeof asked.sums[0]; ++k)
+    moments[k] += exact_sum_of(halves_of(asked.sums[k]));
 }
 
 struct RoomLeft {
   WideVec lowest, highest;
 
+  template <std::size_t>
   HWY_INLINE void add(WideVec t, WideVec share) {
     const auto one = all(1);
     const auto weighs = hn::Gt(share, all(kLeastShare));

@@ -74,9 +74,16 @@ struct EighthPull {
   }
 };
 
-struct SquareMoments {
-  std::array<Floats, 3> sums{};
+template <std::size_t kCount>
+struct MomentSums {
+  std::array<Floats, kCount> sums{};
 
+  void join(const MomentSums& other) {
+    for (std::size_t k = 0; k < kCount; ++k) sums[k] += other.sums[k];
+  }
+};
+
+struct SquareMoments : MomentSums<3> {
   void add(Floats t, Floats share) {
     sums[0] += t * t;
     sums[1] += t * share;
@@ -84,9 +91,7 @@ struct SquareMoments {
   }
 };
 
-struct EighthMoments {
-  std::array<Floats, 9> sums{};
-
+struct EighthMoments : MomentSums<9> {
   void add(Floats t, Floats share) {
     const Floats t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;
     sums[0] += t4 * t4;

@@ -102,8 +102,6 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
   SCARP_RETURN_IF_ERROR(check_border(field, options));
   if (options.goals.objective == Objective::kRms && !metric::has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
-  if (options.quality.vertices == Vertices::kFree && !traits_of(options.quality.effort).moves_vertices)
-    return usage("free vertices need high effort or more: leave them on samples");
   if (metric::has_lines(options) && !has_error_for_all)
     return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
   if (options.quality.shape.any() && !has_error_for_all)

@@ -107,11 +107,6 @@ constexpr ConflictRule kRules[] = {
     {Fields(Field::kWalls), kShapes, {}, Where::kAlways, "the two lines of a wall lie too close together for angles"},
 
     {Fields(Field::kEffortFast), kAsksForEffort, {}, Where::kAlways, "fast effort only refines"},
-    {Fields(Field::kEffortNormal),
-     Fields(Field::kVerticesFree),
-     {},
-     Where::kAlways,
-     "only high and max effort move vertices"},
     {Fields(Field::kVerticesFree),
      Fields(Field::kChannels),
      {},

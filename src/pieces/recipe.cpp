@@ -19,7 +19,8 @@ namespace {
 Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (options.quality.effort != Effort::kAuto) return options.quality.effort;
   const Fields set = fields_of(field, options);
-  if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
+  if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms, Field::kVerticesFree)))
+    return Effort::kNormal;
   return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
 }
 
@@ -136,8 +137,6 @@ Question either(const Question& first, const Question& second) {
 constexpr double kAnyPatience = 100;
 
 fit::FitOptions fit_options(const Recipe& recipe) {
-  // With vertices on samples, a floor costs up to 10 % more triangles, possibly more than normal effort.
-  constexpr double kUsualShape = 0.1;
   const SimplifyOptions& options = recipe.options;
   const Frame& frame = recipe.field.frame;
   const auto& a = frame.affine;
@@ -149,8 +148,9 @@ fit::FitOptions fit_options(const Recipe& recipe) {
   if (options.quality.shape.min_edge && recipe.traits.moves_vertices) {
     fit.depth.repair = fit::kMaxDepth.repair;
     fit.depth.repair.patience = kAnyPatience;
+    fit.depth.repair.worth = 0;
   }
-  fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
+  fit.min_shape = options.quality.min_shape.value_or(usual_shape(recipe.traits, recipe.frees_vertices));
   fit.floor_yields = !options.quality.min_shape;
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
   if (options.quality.shape.any()) {
@@ -194,8 +194,7 @@ Recipe::Recipe(const HeightField& given, const metric::Request& asked, const Sca
                       !has_lines),
       fits(traits.fits),
       search(choose_search(*this)),
-      frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples && given.frame.is_affine() &&
-                     !has_norm(given)),
+      frees_vertices(may_free(traits, asked.quality.vertices) && given.frame.is_affine() && !has_norm(given)),
       releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
       // With shape goals, redundant vertices of tile borders must be removed from strips at every effort.
       fits_pieces((fits && !by.squares) || asked.quality.shape.any()),

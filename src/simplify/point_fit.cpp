@@ -16,7 +16,6 @@ namespace scarp::run {
 
 namespace {
 
-constexpr double kUsualShape = 0.1;
 constexpr std::int32_t kMostCells = fit::kMaxFitSteps / grid::kLatticeSteps;
 
 /// The points, including those that share a lattice point. A point whose bound b is smaller than the threshold t
@@ -114,7 +113,7 @@ Result<PointFit> fit_points(const grid::SnappedPoints& points, std::span<const d
   fit_options.threads = options.run.threads;
   fit_options.depth = recipe.traits.depth;
   fit_options.vertices_are_free = recipe.frees_vertices;
-  fit_options.min_shape = quality.min_shape.value_or(fit_options.vertices_are_free ? kUsualShape : 0);
+  fit_options.min_shape = quality.min_shape.value_or(pieces::usual_shape(recipe.traits, recipe.frees_vertices));
   fit_options.floor_yields = !quality.min_shape && !quality.shape.any();
   if (quality.shape.any()) fit_options.shape = shape::shape_rule(quality.shape, points.lattice);
   fit_options.squares = recipe.scale.squares;

@@ -28,8 +28,8 @@ Result<void> check_goals(const PointOptions& options) {
   const Quality& quality = options.quality;
   if (quality.order == Order::kDominant)
     return fail(ErrorKind::kUsage, "the dominant order is for rasters, not for points");
-  if (quality.vertices == Vertices::kFree && !pieces::traits_of(quality.effort).moves_vertices)
-    return fail(ErrorKind::kUsage, "free vertices need high or max effort");
+  if (quality.vertices == Vertices::kFree && quality.effort == Effort::kFast)
+    return fail(ErrorKind::kUsage, "free vertices need more than fast effort, which only refines");
   if (quality.min_shape && quality.effort == Effort::kFast)
     return fail(ErrorKind::kUsage, "min_shape needs more than fast effort, which only refines");
   SCARP_RETURN_IF_ERROR(pieces::check_min_shape(quality.min_shape));
@@ -102,7 +102,7 @@ PointRecipe::PointRecipe(const PointSet& points, const PointOptions& asked, cons
       removes(traits.fits && (!asked.max_error || aims.is_open())),
       insertion_stops(points.lines.empty() && !asked.quality.shape.any() && asked.tolerances.empty()),
       search(choose_search(*this)),
-      frees_vertices(traits.moves_vertices && asked.quality.vertices != Vertices::kSamples),
+      frees_vertices(pieces::may_free(traits, asked.quality.vertices)),
       removes_last(removes && asked.quality.shape.any() && !asked.quality.shape.grade),
       steps(asked.float32_positions && (removes || asked.quality.shape.any() || !points.lines.empty())
                 ? grid::PointSteps::kFloat32

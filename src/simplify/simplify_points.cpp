@@ -244,8 +244,10 @@ Result<SimplifiedBlocks> simplify_points(const PointBlocks& blocks, const PointO
   SCARP_RETURN_IF_ERROR(working.find_extent());
   const run::PointRecipe recipe(working.points(), options);
   // Vertices off the points leave errors near the bound everywhere, so too many other points would break it.
-  if (recipe.traits.moves_vertices)
-    return fail(ErrorKind::kUsage, "high and max effort need all points at once, not in blocks: use normal effort");
+  if (recipe.traits.moves_vertices || recipe.frees_vertices)
+    return fail(ErrorKind::kUsage,
+                "high and max effort and free vertices need all points at once, not in blocks: use "
+                "normal effort");
   SCARP_RETURN_IF_ERROR(working.start(recipe.steps));
   if (options.float32_positions) {
     SCARP_RETURN_IF_ERROR(round_heights(working.points(), working.snapped()));

@@ -41,13 +41,14 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   const HeightField view = *rc::gen::arbitrary<bool>() ? field.view() : odd_cells(field);
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   auto options = with_effort(goal, *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax),
-                             *rc::gen::element(Vertices::kAuto, Vertices::kSamples));
+                             *rc::gen::element(Vertices::kAuto, Vertices::kSamples, Vertices::kFree));
   options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
   options.output.float32_positions = *rc::gen::arbitrary<bool>();
   const auto result = simplify(view, options);
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kPromise);
-    RC_ASSERT(result.error().kind == ErrorKind::kInput || (goal == 0 && options.output.float32_positions));
+    RC_ASSERT(result.error().kind == ErrorKind::kInput ||
+              ((goal == 0 || options.quality.vertices == Vertices::kFree) && options.output.float32_positions));
     return;
   }
   const Measurement m = *measure(view, result->mesh);
@@ -73,7 +74,8 @@ TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_
 
 RC_GTEST_PROP(effort, free_vertices_are_on_the_lattice_with_float32_heights, ()) {
   const Field field = any_field(40);
-  const auto result = simplify(field.view(), with_effort(3, Effort::kHigh));
+  const auto effort = *rc::gen::element(Effort::kAuto, Effort::kNormal, Effort::kHigh);
+  const auto result = simplify(field.view(), with_effort(3, effort, Vertices::kFree));
   RC_PRE(result.has_value());
   RC_ASSERT(result->vertices == Vertices::kFree);
   const Mesh& mesh = result->mesh;
@@ -245,9 +247,21 @@ TEST(effort, what_needs_more_than_fast_effort_is_refused_with_it) {
   }
 }
 
+TEST(effort, normal_leaves_fewer_triangles_if_vertices_are_free) {
+  Field bowl{200, 160, {}};
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 200; ++x) bowl.samples.push_back(0.01f * static_cast<float>(x * x + 2 * y * y));
+  const auto free = simplify(bowl.view(), with_effort(1, Effort::kNormal, Vertices::kFree));
+  const auto on_samples = simplify(bowl.view(), with_effort(1, Effort::kNormal));
+  ASSERT_TRUE(free && on_samples);
+  EXPECT_LE(measure(bowl.view(), free->mesh)->max_error, 1);
+  EXPECT_LT(static_cast<double>(free->mesh.triangle_count()),
+            0.8 * static_cast<double>(on_samples->mesh.triangle_count()));
+}
+
 TEST(effort, free_vertices_that_cannot_be_are_refused) {
   const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
-  const auto result = simplify(field.view(), with_effort(4, Effort::kNormal, Vertices::kFree));
+  const auto result = simplify(field.view(), with_effort(4, Effort::kFast, Vertices::kFree));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
 }

@@ -319,7 +319,6 @@ for name, given, says, then in (
     ("texture weight", "o.glb -e 20 --texture-weight 0.5", "needs --texture", "o.glb -t 500 --texture-weight 0.5 --texture byte.tif"),
     ("channel weights", "o.glb -t 500 --channel-weights 1", "needs --texture or --image", "o.glb -t 500 --channel-weights 1 --texture byte.tif"),
     ("edge score", "o.glb -e 20 --shape-threshold 0.5", "needs --edges data", "o.glb -e 20 --shape-threshold 0.5 --edges data --edge-score abn"),
-    ("free vertices", "o.glb -e 20 --vertices free", "needs --effort high or --effort max", "o.glb -e 20 --vertices free --effort high"),
     ("walls of a budget", "o.glb --tolerance byte.tif --cliff 50", "needs --max-error", "o.glb -e 20 --cliff 50"),
     ("a split", "o.stl -e 20 --split 2x2", "--solid size=120mm", "o.stl -e 20 --split 2x2 --solid size=120mm"),
     ("an error on a print", "o.stl -e 0.1mm", "--solid size=120mm", "o.stl -e 0.1mm --solid size=120mm"),

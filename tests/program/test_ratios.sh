@@ -20,7 +20,7 @@ section = lambda name, page=quality: re.search(rf"<!-- table: {name} -->(.*?)<!-
 table = {}
 for name, *cells in re.findall(r"^\| `([a-z ]+)` \|([^|]*)\|([^|]*)\|([^|]*)\|([^|]*)\|$", section("efforts"), re.M):
     table[name] = tuple(float(cell.split()[0]) for cell in cells)
-assert set(table) == {"fast", "normal", "high on samples", "high", "max"}, table
+assert set(table) == {"fast", "normal", "normal free", "high on samples", "high", "max"}, table
 triangles = {name: row[0] for name, row in table.items()}
 seconds = {name: row[3] for name, row in table.items()}
 budgets = section("budget_summary")

@@ -101,10 +101,10 @@ export interface Goals {
 }
 
 export interface Work {
-  /** fast: the mesh of insertion. normal: about half the triangles of fast. high: about a third, in some seven
+  /** fast: the mesh of insertion. normal: about half the triangles of fast. high: about a third, in some eight
    * times the time of normal. */
   effort?: FromSimplify;
-  /** Positions of vertices with effort 'high' and 'max': at samples, or also between them (free). */
+  /** Positions of vertices: at samples, or also between them (free; not with effort 'fast'). DEFAULT: free with 'high' and 'max'. */
   vertices?: FromSimplify;
   /** The quantity that a budget minimises: the largest or the RMS error. */
   objective?: FromSimplify;

@@ -25,7 +25,8 @@ Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy,
   json["why_fast"] =
       simplified.why_fast == WhyFast::kNone ? Json(nullptr) : Json(name_of(simplified.why_fast, kWhyFast));
   json["vertices"] = name_of(simplified.vertices, kVertexWords);
-  json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  json["min_shape"] = options.quality.min_shape.value_or(
+      simplified.vertices == Vertices::kFree && simplified.effort > Effort::kNormal ? 0.1 : 0);
   json["cut_short"] = simplified.is_cut_short;
   json["objective"] = name_of(options.goals.objective, kObjectives);
   json["order"] = order_name(simplified.order);

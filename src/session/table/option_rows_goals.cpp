@@ -90,7 +90,7 @@ constexpr OptionRow kGoalRows[] = {
      .by_default = "normal; fast with the 1995 paper's strategies, or with too little --memory",
      .is_for_points = true,
      .help = "Work to spend on fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the triangles "
-             "of fast. high: also move vertices; 0.30. max: search longer; 0.28. CPU time is 0.4, 1.4, 9.6 and 50 "
+             "of fast. high: also move vertices; 0.30. max: search longer; 0.27. CPU time is 0.4, 1.4, 10.7 and 54 "
              "times that of the 1995 paper's algorithm. With -t or -p, the work reduces the error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kMinShape,
@@ -102,7 +102,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kNumber,
      .value = "Q",
      .unit = "height over longest edge",
-     .by_default = "0.1 with free vertices, else 0",
+     .by_default = "0.1 for high and max with free vertices, else 0",
      .least = 0,
      .most = 0.5,
      .limit_why = "0.5 is the shape of half a sample's square",
@@ -114,10 +114,11 @@ constexpr OptionRow kGoalRows[] = {
      .group = OptionGroup::kEffort,
      .type = kChoice,
      .choices = "free samples",
-     .by_default = "free where possible",
+     .by_default = "free for high and max where possible, else samples",
      .is_for_points = true,
-     .help = "Positions of vertices with --effort high and max. free: also between samples. samples: only at samples; "
-             "with --effort high this needs 0.41 times the triangles of --effort fast."},
+     .help =
+         "Positions of vertices. free: also between samples; not with --effort fast. samples: only at samples; with "
+         "--effort high this needs 0.41 times the triangles of --effort fast."},
     {.id = kTimeLimit,
      .name = "--time-limit",
      .part_of = kEffort,
