@@ -163,6 +163,7 @@ TEST(PointBlocks, options_that_need_all_points_are_refused) {
   EXPECT_EQ(kind({.max_error = 1, .tolerances = tolerances}), ErrorKind::kUsage);
   EXPECT_EQ(kind({}), ErrorKind::kUsage);
   EXPECT_EQ(kind({.max_error = 1, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.max_error = 1, .quality = {.vertices = Vertices::kFree}}), ErrorKind::kUsage);
   EXPECT_EQ(simplify_points(Parts({}, {}), {.max_error = 1}).error().kind, ErrorKind::kInput);
   MeasureOptions judge;
   judge.collect_above = 1;

@@ -36,7 +36,10 @@ bool has_area(const PointSet& points) {
 }
 
 Quality any_quality() {
-  return {.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax)};
+  const Effort effort =
+      *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
+  if (effort == Effort::kFast) return {.effort = effort};
+  return {.effort = effort, .vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples, Vertices::kFree)};
 }
 
 RC_GTEST_PROP(points, far_from_all_but_one_of_eight_neighbours_are_spikes, ()) {

@@ -126,6 +126,7 @@ holds "$(json "$logs/out" triangles) <= 500"
 refuses 1 "--memory cannot be combined with --despike" "$scarp" simplify large.las y.glb -e 2 --memory 90M --duplicates despike=5
 refuses 1 "--memory cannot be combined with --boundary concave:50: it reads points in parts" "$scarp" simplify large.las y.glb -e 2 --memory 90M --boundary concave:50
 refuses 1 "--memory cannot be combined with --effort high" "$scarp" simplify large.las y.glb -e 2 --memory 90M --effort high
+refuses 1 "--memory cannot be combined with --vertices free" "$scarp" simplify large.las y.glb -e 2 --memory 90M --vertices free
 refuses 1 "--memory cannot be combined with --lods" "$scarp" simplify large.las y.glb -e 2 --memory 90M --lods 2
 succeeds "$scarp" simplify large.las ends.glb -e 2 --boundary concave:50 -q
 refuses 1 "--memory cannot be combined with --boundary" "$scarp" measure large.las ends.glb --memory 90M

@@ -22,6 +22,9 @@ holds "$(error bnormal.json) < $(error bfast.json)" || fail "the error of a budg
 holds "$(error bhigh.json) < $(error bnormal.json)" || fail "the error of a budget with high"
 succeeds "$scarp" simplify survey.csv samples.glb -e 1 --effort high --vertices samples --report samples.json -q
 holds "$(count samples.json) < $(count normal.json)" || fail "high on samples"
+succeeds "$scarp" simplify survey.csv free.glb -e 1 --vertices free --report free.json -q
+succeeds "$scarp" measure survey.csv free.glb --fail-above 1 -q
+holds "$(count free.json) < $(count normal.json)" || fail "free vertices of normal effort: $(count free.json)"
 for threads in 1 3; do
   succeeds "$scarp" simplify survey.csv "t$threads.ply" -e 0.5 --effort high -j "$threads" -q
 done
