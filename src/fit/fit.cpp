@@ -51,7 +51,8 @@ Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::Ver
   // repair handle few vertices other than those on earlier borders.
   const double removal = 1.0 / (1 + 5 * repairs);
   const std::int32_t first_side = side();
-  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, options.depth.relocates);
+  const bool relocates = options.depth.relocates && has_energies(options);
+  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, relocates);
   if (goes_on && is_cut) goes_on = rounds.run({first_side, first_side / 2}, removal);
   rounds.forget_held();
   // Squares become larger as triangles become fewer.

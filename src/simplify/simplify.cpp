@@ -66,8 +66,8 @@ Result<Simplified> make_mesh(const pieces::Recipe& recipe) {
   return made;
 }
 
-/// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined. The memory for one
-/// thread, which is the least, decides, because the mesh must not depend on the number of threads.
+/// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined, unless free vertices
+/// were requested. The memory for one thread, which is the least, decides, because the mesh must not depend on the number of threads.
 Result<Simplified> simplify_by_default(const pieces::Recipe& recipe) {
   WhyFast why = recipe.fits ? WhyFast::kBudget : WhyFast::kOrder;
   auto made = make_mesh(recipe);
@@ -77,7 +77,7 @@ Result<Simplified> simplify_by_default(const pieces::Recipe& recipe) {
     alone.run.threads = 1;
     made = make_mesh(pieces::Recipe(recipe.field, alone));
   }
-  if (lacks_memory()) {
+  if (lacks_memory() && recipe.options.quality.vertices != Vertices::kFree) {
     metric::Request fast = recipe.options;
     fast.quality.effort = Effort::kFast;
     why = WhyFast::kMemory;

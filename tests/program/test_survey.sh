@@ -25,6 +25,7 @@ holds "$(count samples.json) < $(count normal.json)" || fail "high on samples"
 succeeds "$scarp" simplify survey.csv free.glb -e 1 --vertices free --report free.json -q
 succeeds "$scarp" measure survey.csv free.glb --fail-above 1 -q
 holds "$(count free.json) < $(count normal.json)" || fail "free vertices of normal effort: $(count free.json)"
+[ "$(json free.json strategy vertices) $(json normal.json strategy vertices)" = '"free" "samples"' ] || fail "the report does not name the places of vertices"
 for threads in 1 3; do
   succeeds "$scarp" simplify survey.csv "t$threads.ply" -e 0.5 --effort high -j "$threads" -q
 done

@@ -9,6 +9,7 @@
 #include "session/options/points_options.h"
 #include "session/options/region_options.h"
 #include "session/options/strategy_options.h"
+#include "session/options/strategy_words.h"
 #include "session/reports/level_report.h"
 #include "session/reports/report.h"
 #include "session/reports/shape_report.h"
@@ -139,7 +140,8 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
     report["water"].push_back(
         Json{{"level", std::isnan(lake.level) ? Json(nullptr) : Json(lake.level)}, {"points_dropped", lake.dropped}});
   }
-  report["strategy"] = Json{{"effort", effort_name(outcome.simplified.effort)}};
+  report["strategy"] = Json{{"effort", effort_name(outcome.simplified.effort)},
+                            {"vertices", name_of(outcome.simplified.vertices, kVertexWords)}};
   if (find_tolerance(plan.given)) {
     report["strategy"]["tolerance"] = or_null(plan.given[OptionId::kTolerance]);
     report["strategy"]["roi"] = plan.given.all(OptionId::kRoi);

@@ -108,17 +108,6 @@ constexpr OptionRow kGoalRows[] = {
      .limit_why = "0.5 is the shape of half a sample's square",
      .is_for_points = true,
      .help = "Do not create triangles thinner than this (height over longest edge)."},
-    {.id = kVertices,
-     .name = "--vertices",
-     .commands = kSimplify,
-     .group = OptionGroup::kEffort,
-     .type = kChoice,
-     .choices = "free samples",
-     .by_default = "free for high and max where possible, else samples",
-     .is_for_points = true,
-     .help =
-         "Positions of vertices. free: also between samples; not with --effort fast. samples: only at samples; with "
-         "--effort high this needs 0.41 times the triangles of --effort fast."},
     {.id = kTimeLimit,
      .name = "--time-limit",
      .part_of = kEffort,
@@ -132,6 +121,17 @@ constexpr OptionRow kGoalRows[] = {
      .is_for_points = true,
      .help = "Stop improving after SECONDS and write the best mesh so far. The bound holds, but the mesh depends on "
              "timing. --effort max uses all the time."},
+    {.id = kVertices,
+     .name = "--vertices",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kChoice,
+     .choices = "free samples",
+     .by_default = "free for high and max where possible, else samples",
+     .is_for_points = true,
+     .help =
+         "Positions of vertices. free: also between samples; not with --effort fast. samples: only at samples; with "
+         "--effort high this needs 0.41 times the triangles of --effort fast."},
 
     {.id = kLods,
      .name = "--lods",
