@@ -66,9 +66,9 @@ Result<Simplified> make_mesh(const pieces::Recipe& recipe) {
   return made;
 }
 
-/// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined, unless free vertices
-/// were requested. The memory for one thread, which is the least, decides, because the mesh must not depend on the
-/// number of threads.
+/// Simplifies with the default effort. If memory does not suffice for it, the mesh is only refined, unless free
+/// vertices were requested. The memory for one thread, which is the least, decides, because the mesh must not depend on
+/// the number of threads.
 Result<Simplified> simplify_by_default(const pieces::Recipe& recipe) {
   WhyFast why = recipe.fits ? WhyFast::kBudget : WhyFast::kOrder;
   auto made = make_mesh(recipe);
