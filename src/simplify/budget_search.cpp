@@ -200,7 +200,13 @@ class BudgetSearch {
   bool has_ended() const {
     const double enough = std::log(runs_ < pace_.patience ? kFull : kNearlyFull);
     return runs_ == pace_.most_runs || is_at_floor_ || (fits_ && fits_->used >= enough) ||
-           (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < pace_.closed);
+           (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < closed());
+  }
+
+  /// Triangles that scatter, but do not jump, may use more of the budget between nearer numbers.
+  double closed() const {
+    const bool scatters = fits_ && fits_->used < std::log(kNearlyFull) && fits_->used >= std::log(kJump);
+    return scatters ? pace_.closed / 8 : pace_.closed;
   }
 
   /// Finds by refinement how the number of triangles grows as the bounds fall.
