@@ -16,6 +16,9 @@ namespace {
 constexpr double kWorthARound = 1e-3;
 constexpr int kPoorRounds = 2;
 
+/// Share of the triangles that a round of repair after the first leaves.
+constexpr double kLeftByARound = 0.95;
+
 bool is_small(const tin::Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
 
 /// Side of squares with some kPatchTriangles triangles; on a narrow raster, length of pieces.
@@ -52,8 +55,12 @@ Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::Ver
   const double removal = 1.0 / (1 + 5 * repairs);
   const std::int32_t first_side = side();
   const bool relocates = options.depth.relocates && has_energies(options);
-  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, relocates);
-  if (goes_on && is_cut) goes_on = rounds.run({first_side, first_side / 2}, removal);
+  const auto remove = [&] {
+    return rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, relocates) &&
+           (!is_cut || rounds.run({first_side, first_side / 2}, removal));
+  };
+  bool goes_on = remove();
+  while (goes_on && repairs == 0 && rounds.raise_threshold()) goes_on = remove();
   rounds.forget_held();
   // Squares become larger as triangles become fewer.
   const auto grid = [&](int round) {
@@ -64,6 +71,7 @@ Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::Ver
   const double whole = repairs + (has_last ? 0.2 : 0.0);
   for (int round = 0; goes_on && round < repairs; ++round) {
     const double end = removal + (1 - removal) * (round + 1) / whole;
+    if (round > 0) rounds.raise_threshold(kLeftByARound);
     const int polishes = !has_last && round + 1 == repairs ? options.depth.polishes : 0;
     goes_on = rounds.repair(grid(round), end, rounds.repair_options(polishes, 0));
   }
@@ -71,6 +79,9 @@ Result<Fitted> fit(const grid::Raster& raster, tin::Triangulation tin, grid::Ver
     const std::int32_t now = side();
     goes_on = rounds.repair({now, now / 4}, 1, rounds.repair_options(options.depth.polishes, 0), true);
   }
+  for (int round = repairs; goes_on && repairs > 0 && rounds.raise_threshold(); ++round)
+    goes_on =
+        rounds.repair(grid(round), 1, rounds.repair_options(rounds.is_last_rise() ? options.depth.polishes : 0, 0));
   int poor = repairs > 0 && options.goes_on ? 0 : kPoorRounds;
   for (int round = repairs; goes_on && poor < kPoorRounds && !rounds.is_time_up(); ++round) {
     const std::uint64_t before = rounds.vertices();

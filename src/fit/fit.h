@@ -50,6 +50,12 @@ inline constexpr FitDepth kMaxDepth{true, 3, {10, 3, true, true, true, 4, 0.03},
 
 inline constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 
+/// Budgets of triangles and vertices that a mesh shall fit into.
+struct Room {
+  std::uint64_t most_triangles = kNoBudget, most_vertices = kNoBudget;
+  double highest = 0;  ///< the largest acceptable threshold
+};
+
 /// A budget of triangles or vertices, within which the squared error is reduced (square_rounds.h).
 struct SquareGoal {
   std::uint64_t most_triangles = kNoBudget, most_vertices = kNoBudget;
@@ -58,6 +64,9 @@ struct SquareGoal {
 
 struct FitOptions {
   double threshold = 0;
+  /// The threshold rises in small steps until the mesh is within these budgets, and removal continues after each.
+  /// DEFAULT: none, the threshold stays. REQUIRES: no bounds of samples; a threshold above 0.
+  std::optional<Room> room = std::nullopt;
   /// A bound for each sample, row-major like the raster: at least 0, +infinity for none, no NaN. The bounds replace the
   /// threshold, and energies use the ratio of error to bound. EMPTY: the threshold applies to all samples.
   std::span<const float> bounds = {};
@@ -133,6 +142,7 @@ struct Fitted {
   /// height 0.
   grid::VertexLattice lattice;
   bool is_cut_short = false;  ///< because the time was up
+  double threshold = 0;       ///< the last one; options.threshold unless it rose
 };
 
 /// `lattice`: the lattice of the vertices of `tin`.

@@ -21,7 +21,7 @@ void Insertion::run(std::size_t most) {
   for (Patch::Id f = 0; f < patch_.face_count(); ++f) {
     if (patch_.face(f).corners[0] != tin::kNone) offer(f);
   }
-  std::size_t count = count_faces(patch_);
+  std::size_t count = patch_.count_faces();
   while (!heap_.empty() && count + 2 <= most) {
     std::pop_heap(heap_.begin(), heap_.end(), is_later);
     const Offer best = heap_.back();

@@ -1,5 +1,6 @@
 #include "fit/patch.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace scarp::fit {
@@ -177,6 +178,11 @@ void Patch::commit() {
 void Patch::roll_back() {
   face_journal_.roll_back(faces_);
   node_journal_.roll_back(nodes_);
+}
+
+std::size_t Patch::count_faces() const {
+  return static_cast<std::size_t>(
+      std::count_if(faces_.begin(), faces_.end(), [](const Face& face) { return face.corners[0] != tin::kNone; }));
 }
 
 void Patch::pack() {

@@ -126,6 +126,8 @@ class Patch {
   /// The triangles touched since begin(), in their earlier state.
   std::span<const Journal<Face>::Copy> touched() const { return face_journal_.copies(); }
 
+  std::size_t count_faces() const;  ///< without removed ones
+
   /// Renumbers the faces without gaps, and frees the memory of removed ones.
   void pack();
 

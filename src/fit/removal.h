@@ -15,6 +15,7 @@
 // Vertices of equal price are removed in the order of the patch, so the result depends on the patch only.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -30,10 +31,10 @@ struct RemovalCounts {
   std::uint64_t searches = 0;  ///< number of rings examined
 };
 
-/// Removes vertices until none can be removed. Calls is_time_up(), if not empty, before each vertex. `settled`: by
-/// node, 1 if it certainly cannot be removed; updated unless the time was up. REQUIRES: every triangle of the patch is
-/// within the threshold; settled.size() == patch.node_count().
-RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape,
+/// Removes vertices until at most `most` triangles remain or no vertex can be removed. Calls is_time_up(), if not
+/// empty, before each vertex. `settled`: by node, 1 if it certainly cannot be removed; updated if no vertex can be
+/// removed. REQUIRES: every triangle of the patch is within the threshold; settled.size() == patch.node_count().
+RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape, std::size_t most,
                               const std::function<bool()>& is_time_up, std::vector<std::uint8_t>& settled);
 
 }  // namespace scarp::fit

@@ -1,6 +1,7 @@
 #include "fit/rounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,6 +15,13 @@ namespace {
 
 /// Width, in edges, of the strip along earlier borders in which the last round of repair begins.
 constexpr int kBorderWidth = 2;
+
+/// Rises of the threshold, as logarithms. Removal then ends when a patch has the share of its triangles that the
+/// budgets have of the mesh; before the last rise, it may end a little below. The last rise begins with an excess of at
+/// most kNear and is larger than needed, because that share limits it; the one before aims at kBeforeLast.
+constexpr double kLeastStep = 0.002, kLargestStep = 0.2, kNear = 0.02, kBeforeLast = 0.012, kGenerous = 1.4;
+constexpr double kBeyond = 1.15;  // power of the share
+constexpr double kLeastPower = 0.5, kLargestPower = 3;
 
 /// Also marks the neighbours of marked nodes.
 void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
@@ -76,7 +84,48 @@ Rounds::Rounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexL
       held_(fitted_.tin.vertex_count(), 0),
       scratch_(static_cast<std::size_t>(thread_count(options.threads))),
       windows_(scratch_.size()) {
+  fitted_.threshold = options.threshold;
   if (rules_.freedom == Freedom::kLattice) set_range(raster, options, rules_);
+}
+
+bool Rounds::raise_threshold(double left) {
+  if (!options_.room) return false;
+  const double share = wanted_share(), excess = std::log(left / share);
+  if (excess <= 0 || fitted_.threshold >= options_.room->highest) return false;
+  const bool is_stuck = left == 1 && excess_ && excess >= *excess_;
+  if (left < 1) {
+    excess_.reset();
+  } else {
+    if (excess_) power_ = std::clamp(((*excess_ - excess) / step_ + power_) / 2, kLeastPower, kLargestPower);
+    excess_ = excess;
+  }
+  is_last_rise_ = left == 1 && excess < kNear;
+  kept_ = is_last_rise_ || is_whole_ ? share : std::pow(share, kBeyond);
+  const double before = step_;
+  step_ = std::clamp((is_last_rise_ ? kGenerous * excess + kLeastStep : excess - kBeforeLast) / power_, kLeastStep,
+                     kLargestStep);
+  if (is_stuck) step_ = std::min(2 * before, kLargestStep);
+  fitted_.threshold = std::min(fitted_.threshold * std::exp(step_), options_.room->highest);
+  settled_.assign(settled_.size(), 0);
+  return true;
+}
+
+double Rounds::wanted_share() const {
+  const auto all = static_cast<double>(triangles()), vertices = static_cast<double>(fitted_.tin.vertex_count());
+  // Each vertex adds two triangles, except on the sides.
+  const double fewer = 2 * std::max(0.0, vertices - static_cast<double>(options_.room->most_vertices));
+  return std::clamp(all - fewer, 1.0, std::max(1.0, static_cast<double>(options_.room->most_triangles))) /
+         std::max(1.0, all);
+}
+
+std::size_t Rounds::most_of(const Patch& patch) const {
+  return static_cast<std::size_t>(std::floor(kept_ * static_cast<double>(patch.count_faces()) * (1 + 0x1p-40)));
+}
+
+std::uint64_t Rounds::triangles() const {
+  std::uint64_t count = 0;
+  for (tin::Triangle t = 0; t < fitted_.tin.triangle_count(); ++t) count += fitted_.tin.is_outside(t) ? 0 : 1;
+  return count;
 }
 
 bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
@@ -95,6 +144,7 @@ bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& opti
                        only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
                    RepairOptions here = options;
                    here.wanted = wanted;
+                   here.most = most_of(patch);
                    here.rules = rules_of(patch);
                    const RepairCounts counts = repair_vertices(patch, error, here);
                    return FitCounts{counts.removed, 0, counts.removed, counts.tried};
@@ -137,6 +187,7 @@ Fitted Rounds::finish() {
 /// counts its changes.
 bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, Work work) {
   const PatchCutter cutter = this->cutter(grid);
+  is_whole_ = grid.side >= std::max(raster_.cols, raster_.rows);
   std::vector<Patch> patches(cutter.count());
   std::vector<std::vector<tin::Vertex>> vertices(cutter.count());
   counts_.assign(cutter.count(), {});
@@ -189,9 +240,9 @@ PatchCutter Rounds::cutter(const PatchGrid& grid) const {
 }
 
 TriangleError Rounds::errors_of(const Patch& patch, SampleWindow& window) const {
-  if (options_.points != nullptr) return window.errors(*options_.points, patch, options_.threshold);
-  if (options_.read) return window.errors(options_.read, options_.read_bounds, patch, options_.threshold);
-  return window.errors(raster_, options_.bounds, options_.norm, patch, options_.threshold);
+  if (options_.points != nullptr) return window.errors(*options_.points, patch, fitted_.threshold);
+  if (options_.read) return window.errors(options_.read, options_.read_bounds, patch, fitted_.threshold);
+  return window.errors(raster_, options_.bounds, options_.norm, patch, fitted_.threshold);
 }
 
 void Rounds::add(const FitCounts& counts) {
@@ -212,10 +263,11 @@ FitCounts Rounds::remove(Patch& patch, const std::vector<tin::Vertex>& vertices,
   for (const tin::Vertex v : vertices) settled.push_back(settled_[v]);
   ShapeRule shape = rules_.shape;
   if (options_.floor_yields) shape.floor = 0;
-  RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
-  if (relocates && error.has_energy() && !is_time_up()) {
+  const std::size_t most = most_of(patch);
+  RemovalCounts counts = remove_vertices(patch, error, shape, most, options_.is_time_up, settled);
+  if (relocates && patch.count_faces() > most && error.has_energy() && !is_time_up()) {
     relocate_vertices(patch, error, {relocation_freedom(), shape, rules_.lowest, rules_.highest}, settled);
-    const RemovalCounts more = remove_vertices(patch, error, shape, options_.is_time_up, settled);
+    const RemovalCounts more = remove_vertices(patch, error, shape, most, options_.is_time_up, settled);
     counts.removed += more.removed;
     counts.searches += more.searches;
   }

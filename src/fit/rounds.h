@@ -1,7 +1,9 @@
 // Successive rounds of fitting, in squares shifted against each other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +19,12 @@ class Rounds {
   /// Raster and options must outlive this object.
   Rounds(const grid::Raster& raster, tin::Triangulation tin, grid::VertexLattice lattice, const FitOptions& options);
 
+  /// Raises the threshold towards one for which the mesh is within the options' budgets, after `left` of its triangles
+  /// remain in the rounds that follow anyway. Returns false if the mesh is within them or the threshold is the largest.
+  bool raise_threshold(double left = 1);
+  /// True if the mesh is so large that the round after the last rise is likely to be the last one.
+  bool is_last_rise() const { return is_last_rise_; }
+
   /// A round of removal. `relocates`: each vertex then makes a step, and removal continues. `end`: finished share of
   /// the whole work after the round. This and the other rounds return false if cancelled.
   bool run(const PatchGrid& grid, double end, bool relocates = false);
@@ -27,7 +35,7 @@ class Rounds {
 
   /// The options of a round of repair. `shake`: see RepairOptions.
   RepairOptions repair_options(int polishes, std::uint32_t shake) const {
-    return {options_.depth.repair, rules_, shake, polishes, {}, options_.is_time_up};
+    return {options_.depth.repair, rules_, shake, polishes, 0, {}, options_.is_time_up};
   }
 
   /// For squared errors: prepares each patch, passes all of them to `between`, then calls `job` for each.
@@ -45,6 +53,7 @@ class Rounds {
 
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
   std::uint64_t vertices() const { return vertices_ - fitted_.counts.removed; }
+  std::uint64_t triangles() const;  ///< without those outside
 
   Fitted finish();
 
@@ -55,6 +64,10 @@ class Rounds {
   bool is_worked_on(const Patch& patch) const;
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
   PatchCutter cutter(const PatchGrid& grid) const;
+  /// The share of the triangles that suffices for the budgets.
+  double wanted_share() const;
+  /// Number of triangles of the patch at which removal ends.
+  std::size_t most_of(const Patch& patch) const;
   std::int32_t steps_of(Freedom freedom) const;
   Freedom relocation_freedom() const;
   bool each_patch(std::size_t count, double begin, double end,
@@ -72,7 +85,13 @@ class Rounds {
   const FitOptions& options_;
   MoveRules rules_;
   Fitted fitted_;
-  std::uint64_t vertices_;                     // vertices of the input mesh
+  std::uint64_t vertices_;        // vertices of the input mesh
+  double power_ = 1.4;            // triangles ~ threshold^-power
+  double step_ = 0;               // logarithm of the last rise of the threshold
+  std::optional<double> excess_;  // logarithm of the triangles before it, relative to the budgets
+  double kept_ = 0;               // share of a patch's triangles at which removal ends
+  bool is_last_rise_ = false;
+  bool is_whole_ = false;                      // the last round had one patch
   double done_ = 0;                            // finished share of the work
   std::vector<std::uint8_t> settled_;          // by vertex
   std::vector<std::uint8_t> held_;             // by vertex: it has been on a border between patches

@@ -55,7 +55,7 @@ struct Schedule::Removals {
 
 void Schedule::remove_all(std::size_t most) {
   std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
-  Removals pass{*this, most, count_faces(patch_)};
+  Removals pass{*this, most, patch_.count_faces()};
   RemovalQueue(patch_, loose_, options_.rules.shape).run(pass);
 }
 
@@ -116,7 +116,7 @@ RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const Rep
   schedule.measure_all();
   if (options.shake != 0) schedule.shake();
   schedule.sweep();
-  schedule.remove_all();
+  schedule.remove_all(options.most);
   if (options.depth.collapses && options.rules.freedom == Freedom::kLattice) schedule.collapse();
   if (options.polishes == 0) return schedule.counts();
   RepairOptions all = options;
@@ -125,12 +125,6 @@ RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const Rep
   polish.measure_all();
   for (int i = 0; i < options.polishes; ++i) polish.sweep();
   return schedule.counts();
-}
-
-std::size_t count_faces(const Patch& patch) {
-  std::size_t count = 0;
-  for (Id f = 0; f < patch.face_count(); ++f) count += patch.face(f).corners[0] != tin::kNone ? 1 : 0;
-  return count;
 }
 
 }  // namespace scarp::fit

@@ -28,6 +28,7 @@ struct RepairOptions {
   MoveRules rules = {};
   std::uint32_t shake = 0;                    ///< unless 0, vertices are shaken first; seed of the random moves
   int polishes = 0;                           ///< final sweeps over all vertices that lower the squared error
+  std::size_t most = 0;                       ///< number of triangles at which removal ends
   std::span<const std::uint8_t> wanted = {};  ///< by node, 1 if it is to be tried first; EMPTY: all nodes
   std::function<bool()> is_time_up = {};      ///< called before each vertex; true ends all but polishing
 };
@@ -75,7 +76,5 @@ class Schedule {
   std::vector<std::uint8_t> is_settled_;  // by node, 1 if a step failed and nothing has changed around it since
   RepairCounts counts_;
 };
-
-std::size_t count_faces(const Patch& patch);
 
 }  // namespace scarp::fit

@@ -128,7 +128,7 @@ class SquareRounds {
         [&](std::size_t i, Patch& patch, const TriangleError& error) {
           if (error.has_energy()) work(patch, error.with({1, ErrorRule::Power::kTwo}), shares[i]);
         });
-    triangles_ = count_triangles();
+    triangles_ = rounds_.triangles();
     return goes_on;
   }
 
@@ -140,7 +140,7 @@ class SquareRounds {
     double weights = 0;
     for (std::size_t i = 0; i < patches.size(); ++i) {
       shares[i].energy = energy_of(patches[i]);
-      shares[i].triangles = shares[i].target = count_faces(patches[i]);
+      shares[i].triangles = shares[i].target = patches[i].count_faces();
       energy_ += shares[i].energy;
       all += shares[i].triangles;
       weights += weight_of(shares[i]);
@@ -218,13 +218,6 @@ class SquareRounds {
     patch = before;
     if (of.triangles > of.target) reduce(patch, error, options, of.target);
     if (of.triangles < of.target) insert(patch, error, options, of.target);
-  }
-
-  std::size_t count_triangles() const {
-    const tin::Triangulation& tin = rounds_.tin();
-    std::size_t count = 0;
-    for (tin::Triangle t = 0; t < tin.triangle_count(); ++t) count += tin.is_outside(t) ? 0 : 1;
-    return count;
   }
 
   std::int32_t longest() const { return std::max(raster_.cols, raster_.rows); }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace scarp::pieces {
 
@@ -26,6 +27,15 @@ std::optional<StopReason> Budget::exceeded(const MeshSize& size, std::uint32_t g
 }
 
 bool Budget::in_last_stretch(const MeshSize& size) const { return used(size) >= 0.95; }
+
+StopReason Budget::tighter(const MeshSize& size) const {
+  return used({size.vertices, 0}) > used({0, size.triangles}) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
+}
+
+MeshSize Budget::most() const {
+  constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+  return {max_vertices_.value_or(kAny), max_triangles_.value_or(kAny)};
+}
 
 double Budget::used(const MeshSize& size) const {
   const auto share = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {

@@ -28,6 +28,10 @@ class Budget {
   bool in_last_stretch(const MeshSize& size) const;
   /// The larger used share of the two budgets; 0 without budgets.
   double used(const MeshSize& size) const;
+  /// The budget of which more is used.
+  StopReason tighter(const MeshSize& size) const;
+  /// The largest mesh within the budgets.
+  MeshSize most() const;
 
  private:
   std::optional<std::uint64_t> max_triangles_, max_vertices_;

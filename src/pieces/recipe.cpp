@@ -198,6 +198,7 @@ Recipe::Recipe(const HeightField& given, const metric::Request& asked, const Sca
       releases_starts((traits.fits && !traits.moves_vertices) || frees_vertices),
       // With shape goals, redundant vertices of tile borders must be removed from strips at every effort.
       fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
+      raises_bound(fits && by.room && by.start < 1 && !by.squares),
       removes_last(asked.quality.shape.any() && shape::shape_rule(asked.quality.shape, given.frame)),
       fits_strips(is_streamed && fits_pieces),
       finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),

@@ -73,6 +73,7 @@ struct Recipe {
   bool frees_vertices;         ///< vertices may move off their samples
   bool releases_starts;        ///< edges that serve only as a start may be removed
   bool fits_pieces;            ///< pieces are fitted: by the effort, or for shape goals
+  bool raises_bound;           ///< fitting raises the bound of refinement until the mesh is within scale.room
   bool removes_last;           ///< removal follows refinement for shapes and preserves them: far fewer triangles
   bool fits_strips;            ///< vertices are removed strip by strip
   bool finishes_strips;        ///< some pass works on a strip while its samples are in memory

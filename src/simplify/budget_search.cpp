@@ -11,15 +11,15 @@
 #include "metric/criterion.h"
 #include "pieces/budget.h"
 #include "simplify/pass_work.h"
+#include "simplify/rising_search.h"
 #include "simplify/search_progress.h"
 
 namespace scarp::run {
 
 namespace {
 
-constexpr double kFull = 0.99;        // used share that ends the search
-constexpr double kNearlyFull = 0.97;  // the same after Pace::patience runs
-constexpr double kNearFloor = 0.02;   // logarithm; a number that is this near to a goal is replaced by the goal
+constexpr double kFull = 0.99;       // used share that ends the search
+constexpr double kNearFloor = 0.02;  // logarithm; a number that is this near to a goal is replaced by the goal
 constexpr double kLeast = std::numeric_limits<double>::min();
 
 /// Below this number, the triangles scatter from run to run by more than a percent. If their number jumps, the mesh of
@@ -237,15 +237,10 @@ class BudgetSearch {
     return expected_after(*made);
   }
 
-  /// The share of the budget that the whole effort is expected to use: the denser the refined mesh, the more of its
-  /// triangles remain. The formulas fit measurements.
+  /// The logarithm of the share of the budget that the whole effort is expected to use.
   double expected_after(const Simplified& refined) const {
-    const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
-    const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
-    const bool is_free = options_.quality.vertices != Vertices::kSamples;
-    double kept = is_free ? 0.26 + 0.35 * std::sqrt(density) : 0.33 + 0.4 * std::sqrt(density);
-    if (!task_.traits.moves_vertices) kept = 0.52 + 0.2 * density;
-    return std::log(kept * used_by(refined));
+    return std::log(expected_share(options_, task_.traits, refined.mesh.triangle_count(), best_.measurement.samples) *
+                    used_by(refined));
   }
 
   /// The logarithm of the least number that is known to have a mesh within the budgets.
@@ -335,8 +330,7 @@ class BudgetSearch {
   StopReason stop_of(const Simplified& made) const {
     if (is_at_floor_ || made.judged_max_error <= floor_)
       return is_factor_ || options_.goals.max_error ? StopReason::kMaxError : StopReason::kExact;
-    const pieces::MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
-    return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
+    return budget_.tighter({made.mesh.vertex_count(), made.mesh.triangle_count()});
   }
 
   bool is_better(const Simplified& made) const { return rank(options_, made) < rank(options_, best_); }
@@ -393,6 +387,11 @@ class BudgetSearch {
 }  // namespace
 
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only) {
+  if (!refines_only && may_rise(options, task)) {
+    auto made = search_by_rising(options, task);
+    if (!made) return tl::unexpected(made.error());
+    if (*made) return std::move(**made);
+  }
   BudgetSearch search(options, task, refines_only);
   auto made = search.execute();
   if (made && search.has_jumped() && !made->is_cut_short && made->mesh.triangle_count() < kFewTriangles) {

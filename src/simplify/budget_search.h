@@ -5,11 +5,14 @@
 //   above fast effort: refinement   ── shows at low cost how triangles grow as the bounds fall: about as a power
 //   runs for other numbers          ── secants through the results in log–log, by the Illinois rule
 //
+// If fitting can raise the bound, rising_search.h needs only one such run; the search above is for other cases.
+//
 // Insertion cannot stop at a budget if it does not know the other needs of the mesh: the error of the final mesh
 // determines how closely lines follow the raster, and no strip knows the needs of other strips. In these cases, a
 // search also finds the mesh of fast effort, from which the search of a larger effort starts.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -42,6 +45,8 @@ struct BudgetTask {
   RunOnce run;
   pieces::EffortTraits traits = {};            ///< the work of a run with the whole effort
   bool insertion_stops = true;                 ///< insertion can stop at budgets
+  bool raises_bound = false;                   ///< fitting can raise the bound (rising_search.h)
+  std::uint64_t samples = 0;                   ///< including nodata
   std::function<double()> most = {};           ///< a number for which a run makes the least mesh
   std::string least = "the least mesh needs";  ///< subject of the error for a budget that the least mesh exceeds
 };

@@ -117,6 +117,9 @@ BudgetTask make_budget_task(const pieces::Recipe& recipe) {
   };
   task.traits = recipe.traits;
   task.insertion_stops = recipe.insertion_stops;
+  task.raises_bound = recipe.insertion_stops && !recipe.has_own_bounds && !pieces::has_norm(recipe.field) &&
+                      !recipe.options.domain.border.is_locked;
+  task.samples = static_cast<std::uint64_t>(recipe.field.cols) * static_cast<unsigned>(recipe.field.rows);
   task.most = [&recipe, tolerances] { return largest_number(recipe, tolerances); };
   task.least = name_least(recipe, tolerances.has_zeros);
   return task;

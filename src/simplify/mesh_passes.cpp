@@ -199,7 +199,12 @@ class MeshPasses {
     }
     const metric::Criterion& criterion = whole ? *whole : criterion_;
     fit::FitOptions options = recipe_.fit;
-    options.threshold = criterion.aim();
+    options.threshold = (recipe_.raises_bound ? criterion_ : criterion).aim();
+    if (recipe_.raises_bound) {
+      const pieces::MeshSize most = recipe_.scale.room->most();
+      const std::uint64_t corners = most.vertices == fit::kNoBudget ? 0 : refinement_.unused();
+      options.room = fit::Room{most.triangles, most.vertices + corners, criterion.aim()};
+    }
     options.squares = recipe_.scale.squares;
     if (options.squares && options.squares->most_vertices != fit::kNoBudget)
       options.squares->most_vertices += refinement_.unused();

@@ -111,9 +111,7 @@ class SquaresSearch {
   StopReason stop_of(const Simplified& made) const {
     if (made.judged_max_error <= (number_.is_factor() ? 1 : options_.goals.max_error.value_or(-1)))
       return StopReason::kMaxError;
-    const double by_vertices = budget_.used({made.mesh.vertex_count(), 0});
-    return by_vertices > budget_.used({0, made.mesh.triangle_count()}) ? StopReason::kMaxVertices
-                                                                       : StopReason::kMaxTriangles;
+    return budget_.tighter({made.mesh.vertex_count(), made.mesh.triangle_count()});
   }
 
   const SimplifyOptions& options_;

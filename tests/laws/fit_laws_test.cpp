@@ -52,6 +52,42 @@ RC_GTEST_PROP(fit, keeps_the_bound_the_domain_and_the_outline, ()) {
   RC_ASSERT(outline_of(fitted.tin, field) == outline);
 }
 
+RC_GTEST_PROP(fit, raises_the_threshold_until_the_mesh_is_within_the_budgets, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const auto count = [](const tin::Triangulation& of) {
+    std::uint64_t inside = 0;
+    for (tin::Triangle t = 0; t < of.triangle_count(); ++t) inside += of.is_outside(t) ? 0 : 1;
+    return inside;
+  };
+  fit::FitOptions options{.threshold = threshold, .threads = 2, .depth = testing::any_depth(0)};
+  options.vertices_are_free = *rc::gen::arbitrary<bool>();
+  options.patch_side = *rc::gen::element(0, 5, 16, 40);
+  options.room = fit::Room{.highest = threshold * *rc::gen::element(1.0, 1.3, 4.0)};
+  RC_PRE(count(*tin) >= 16);
+  const auto share = *rc::gen::element<std::uint64_t>(2, 3, 8);
+  if (*rc::gen::arbitrary<bool>()) {
+    options.room->most_triangles = std::max<std::uint64_t>(count(*tin) / share, 1);
+  } else {
+    options.room->most_vertices = std::max<std::uint64_t>(tin->vertex_count() / share, 3);
+  }
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const auto fitted = *fit::fit(field.raster(), std::move(*tin), options);
+  RC_ASSERT(fitted.threshold >= threshold);
+  RC_ASSERT(fitted.threshold <= options.room->highest);
+  const bool is_within =
+      count(fitted.tin) <= options.room->most_triangles && fitted.tin.vertex_count() <= options.room->most_vertices;
+  RC_ASSERT(is_within || fitted.threshold == options.room->highest);
+  const std::string broken = fitted.lattice.steps == 1
+                                 ? testing::find_broken_bound(field.raster(), fitted.tin, fitted.threshold)
+                                 : testing::find_broken_bound(field.raster(), fitted, fitted.threshold);
+  RC_ASSERT(broken == "");
+  const std::int64_t area = fitted.lattice.steps * fitted.lattice.steps;
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside * area);
+}
+
 RC_GTEST_PROP(fit, keeps_the_worst_shape_above_the_floor_or_no_worse_than_it_was, ()) {
   const Field field = any_field();
   const double threshold = any_threshold();

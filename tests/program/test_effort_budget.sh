@@ -56,7 +56,7 @@ for threads in 1 2 7; do
 done
 
 # One pass of progress that never decreases.
-succeeds "$scarp" simplify "$dem" seen.glb -t 4000 --effort high --json-progress
+succeeds "$scarp" simplify "$dem" seen.glb -t 20000 --effort high --json-progress
 python3 - "$logs/err" <<'PYTHON'
 import json, sys
 lines = [json.loads(line) for line in open(sys.argv[1])]
