@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAim = 1.12;       // share of the budget where the bound begins to rise
 constexpr double kAimAgain = 1.06;  // the same once a run has shown the share
-constexpr double kRise = 1.5;       // of the bound, at most, in one run
+constexpr double kRise = 1.5;       // the bound in a run rises at most by this factor
 
 /// Refined triangles relative to the budget. If there are fewer, fast effort might be better than the search.
 constexpr double kLeastRefined = 1.5;
