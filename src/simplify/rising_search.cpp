@@ -20,6 +20,7 @@ constexpr double kRise = 1.5;       // the bound in a run rises at most by this 
 
 /// Refined triangles relative to the budget. If there are fewer, fast effort might be better than the search.
 constexpr double kLeastRefined = 1.5;
+constexpr double kFarRise = 1.15;  // if the bound rises further, the refined triangles are counted again
 
 /// Triangles that remain after repair, relative to those after removal: with free vertices, and on samples.
 constexpr double kRepairedFree = 0.53, kRepairedOnSamples = 0.67;
@@ -48,6 +49,10 @@ class RisingSearch {
       if (is_beyond(number)) break;
     }
     if (!best) return std::nullopt;
+    if (best->judged_max_error > kFarRise * number) {
+      SCARP_TRY(const double refined, refined_share(best->judged_max_error));
+      if (refined < kLeastRefined / kFarRise) return std::nullopt;
+    }
     best->stop = budget_.tighter({best->mesh.vertex_count(), best->mesh.triangle_count()});
     others_.seconds = seconds_since(start) - best->seconds_refine - best->seconds_measure;
     best->seconds_refine += others_.seconds;
