@@ -389,8 +389,7 @@ class BudgetSearch {
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only) {
   if (!refines_only && may_rise(options, task)) {
     auto made = search_by_rising(options, task);
-    if (!made) return tl::unexpected(made.error());
-    if (*made) return std::move(**made);
+    if (made || made.error().kind != ErrorKind::kPromise) return made;
   }
   BudgetSearch search(options, task, refines_only);
   auto made = search.execute();

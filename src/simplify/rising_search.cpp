@@ -31,33 +31,30 @@ class RisingSearch {
   RisingSearch(const SimplifyOptions& options, const BudgetTask& task)
       : options_(options), task_(task), number_(options), budget_(options), progress_(options.run.progress) {}
 
-  Result<std::optional<Simplified>> execute() {
+  Result<Simplified> execute() {
     const auto start = Clock::now();
     SCARP_TRY(double number, descend());
-    std::optional<Simplified> best;
     for (int i = 0; i < kMostRises && number > 0 && !is_time_up(); ++i) {
-      auto made = rise_from(number);
-      if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
-      if (!made) break;
-      const double used = used_by(*made);
+      auto made = run(number_.towards(kRise * number), {.start = 1 / kRise, .room = budget_}, 0.6);
+      if (!made) return made;
+      const pieces::MeshSize size{made->mesh.vertex_count(), made->mesh.triangle_count()};
+      const double used = budget_.used(size);
       if (used <= 1 && used >= kNearlyFull) {
-        best = std::move(*made);
-        break;
+        if (made->judged_max_error > kFarRise * number) {
+          SCARP_TRY(const double refined, look(number_.towards(made->judged_max_error), true));
+          if (refined < kLeastRefined / kFarRise) break;
+        }
+        made->stop = budget_.tighter(size);
+        others_.seconds = seconds_since(start) - made->seconds_refine - made->seconds_measure;
+        made->seconds_refine += others_.seconds;
+        made->passes.insert(made->passes.begin(), others_);
+        return made;
       }
       add_work(*made, others_);
       number *= used > 1 ? kRise : std::pow(used / kAimAgain, 1 / power_);
       if (is_beyond(number)) break;
     }
-    if (!best) return std::nullopt;
-    if (best->judged_max_error > kFarRise * number) {
-      SCARP_TRY(const double refined, refined_share(best->judged_max_error));
-      if (refined < kLeastRefined / kFarRise) return std::nullopt;
-    }
-    best->stop = budget_.tighter({best->mesh.vertex_count(), best->mesh.triangle_count()});
-    others_.seconds = seconds_since(start) - best->seconds_refine - best->seconds_measure;
-    best->seconds_refine += others_.seconds;
-    best->passes.insert(best->passes.begin(), others_);
-    return best;
+    return fail(ErrorKind::kPromise, "");
   }
 
  private:
@@ -70,7 +67,7 @@ class RisingSearch {
     double number = std::min(first_guess(), highest_);
     std::optional<std::pair<double, double>> last;
     for (int i = 0; i < kMostLooks && number > lowest_; ++i) {
-      SCARP_TRY(const double refined, refined_share(number));
+      SCARP_TRY(const double refined, look(number_.towards(number), true));
       const double here = std::log(number),
                    used = std::log(expected_share(options_, task_.traits, triangles_, task_.samples) * refined);
       if (last && last->first != here) power_ = std::clamp((used - last->second) / (last->first - here), 0.3, 20.0);
@@ -101,35 +98,27 @@ class RisingSearch {
     return kFew * 0.008 * relief * std::pow(0.03 / refined, 1 / power_);
   }
 
-  Result<double> refined_share(double number) {
-    SCARP_TRY(const auto& made, look(number_.towards(number), true));
-    triangles_ = made.mesh.triangle_count();
-    return used_by(made);
-  }
-
   /// After removal, the number of triangles depends less on the land than after refinement.
   Result<double> correct_by_removal(double number) {
     SimplifyOptions options = number_.towards(number);
     options.quality.effort = Effort::kNormal;
     options.quality.vertices = Vertices::kAuto;
     options.quality.min_shape = std::nullopt;
-    SCARP_TRY(const auto& made, look(std::move(options), false));
+    SCARP_TRY(const double removed, look(std::move(options), false));
     const bool is_free = options_.quality.vertices != Vertices::kSamples;
-    const double used = (is_free ? kRepairedFree : kRepairedOnSamples) * used_by(made);
+    const double used = (is_free ? kRepairedFree : kRepairedOnSamples) * removed;
     const double corrected = number * std::pow(used / kAim, 1 / power_);
     return is_beyond(corrected) ? 0.0 : corrected;
   }
 
-  /// A mesh of which only the size matters.
-  Result<Simplified> look(SimplifyOptions options, bool refines_only) {
+  /// The share of the budget that a run uses of which only the size matters; sets triangles_.
+  Result<double> look(SimplifyOptions options, bool refines_only) {
     options.output.normals = options.output.uvs = false;
     auto made = run(std::move(options), {.room = pieces::Budget(0, 0), .refines_only = refines_only}, 0.1);
-    if (made) add_work(*made, others_);
-    return made;
-  }
-
-  Result<Simplified> rise_from(double number) {
-    return run(number_.towards(kRise * number), {.start = 1 / kRise, .room = budget_}, 0.6);
+    if (!made) return tl::unexpected(made.error());
+    add_work(*made, others_);
+    triangles_ = made->mesh.triangle_count();
+    return budget_.used({made->mesh.vertex_count(), triangles_});
   }
 
   Result<Simplified> run(SimplifyOptions options, const pieces::Scale& scale, double share) {
@@ -139,10 +128,6 @@ class RisingSearch {
     return task_.run(options, scale);
   }
 
-  double used_by(const Simplified& made) const {
-    return budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()});
-  }
-
   const SimplifyOptions& options_;
   const BudgetTask& task_;
   BudgetNumber number_;
@@ -150,7 +135,7 @@ class RisingSearch {
   SearchProgress progress_;
   double highest_ = 0, lowest_ = 0;  // limits of useful errors
   double power_ = 1.6;               // triangles ~ error^-power
-  std::uint64_t triangles_ = 0;      // after the last refinement
+  std::uint64_t triangles_ = 0;      // after the last look
   Pass others_{"search"};
 };
 
@@ -161,10 +146,8 @@ bool may_rise(const SimplifyOptions& options, const BudgetTask& task) {
          !metric::has_tolerances(options) && !(task.traits.goes_on && options.run.is_time_up);
 }
 
-Result<std::optional<Simplified>> search_by_rising(const SimplifyOptions& options, const BudgetTask& task) {
-  auto made = RisingSearch(options, task).execute();
-  if (!made && made.error().kind == ErrorKind::kPromise) return std::nullopt;
-  return made;
+Result<Simplified> search_by_rising(const SimplifyOptions& options, const BudgetTask& task) {
+  return RisingSearch(options, task).execute();
 }
 
 double expected_share(const SimplifyOptions& options, const pieces::EffortTraits& traits, std::uint64_t refined,

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "scarp/result.h"
 #include "scarp/simplify.h"
@@ -22,11 +21,11 @@ namespace scarp::run {
 /// is up.
 bool may_rise(const SimplifyOptions& options, const BudgetTask& task);
 
-/// A mesh that uses at least kNearlyFull of a budget. Nothing if the budget is so small that the error is near the
-/// relief, so large that its mesh may satisfy options.max_error or that the effort removes little, or if kMostRises
-/// runs do not find such a mesh, or the time is up before. Depends only on the results of task.run. Fails with
-/// kCancelled and like task.run, except with kPromise. REQUIRES: may_rise(); an effort above fast.
-Result<std::optional<Simplified>> search_by_rising(const SimplifyOptions& options, const BudgetTask& task);
+/// A mesh that uses at least kNearlyFull of a budget. Depends only on the results of task.run. Fails like task.run, and
+/// with kPromise if the budget is so small that the error is near the relief, so large that its mesh may satisfy
+/// options.max_error or that the effort removes little, if kMostRises runs do not find such a mesh, or if the time is
+/// up before. REQUIRES: may_rise(); an effort above fast.
+Result<Simplified> search_by_rising(const SimplifyOptions& options, const BudgetTask& task);
 
 /// The expected share of `refined` triangles over `samples` that remains after the whole effort: the denser the mesh,
 /// the more. The formulas fit measurements.
