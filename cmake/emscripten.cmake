@@ -25,7 +25,7 @@ target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWT
 
 # Hot sources of meshes, their proof, a Refiner and a Tiler (node --cpu-prof of a module linked with --profiling-funcs).
 string(JOIN "|" SCARP_HOT_SOURCES
-  "/fit/(collapse|cut|flips|height_step|insertion|norm|patch|relocation|removal|repair|ring|sample|schedule|triangle|vertex)"
+  "/fit/(cut|flips|height_step|norm|patch|relocation|removal|repair|ring|sample|schedule|triangle|vertex)"
   /geom/scan_kernels "/grid/(height_range|samples|window)" "/mesh/(half_edges|order|thin_triangles)" /metric/[a-z]*_metric
   "/measure/(band|edges|error_summary|facet_error|facet_task|frame_scanner|grid_places|grid_scanner|judge_kernels|point_judge|shape)"
   "/pieces/(freeze|tile_worker)" "/refine/(coarse|data|dominant|lazy|refinement|scattered|settle|tile(_order|_scanner)?[.])"
