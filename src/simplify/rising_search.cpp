@@ -135,7 +135,7 @@ class RisingSearch {
   SearchProgress progress_;
   double highest_ = 0, lowest_ = 0;  // limits of useful errors
   double power_ = 1.6;               // triangles ~ error^-power
-  std::uint64_t triangles_ = 0;      // of the last run of which only the size matters
+  std::uint64_t triangles_ = 0;      // number in the last run whose size alone matters
   Pass others_{"search"};
 };
 
