@@ -58,17 +58,17 @@ struct BudgetTask {
 /// goal.
 ///
 /// Guarantees: no budget is exceeded; the objective is not larger than in the mesh of fast effort for the same budgets
-/// (fast effort is not run if refinement towards the same error needs at least 1.3 times the budget); the result
-/// depends only on the results of `run`. The search ends when the mesh uses at least 99 % of a budget (97 % after some
-/// runs), or when two numbers 0.2 % apart (0.5 % for a few hundred triangles) are on both sides of the budget: the
-/// number of triangles jumps there, for example because many samples have the same error. If then a tenth of a few
-/// hundred triangles is unused, half of the budget is also tried, which may find a better mesh by chance. Above fast
-/// effort, the search also ends when options.is_time_up requests it, with the best mesh so far. There are at most
-/// kMostRuns runs with the whole effort, mostly two or three, or kMostRunsFromLeast if the search starts at the least
-/// mesh. Memory: the best mesh so far in addition to a run. Progress is that of one pass, "search". Fails like `run`,
-/// and with kUsage, which names the least sufficient budget, if the least mesh exceeds a budget. A bound that cannot be
-/// satisfied (kPromise) only ends the search below it. `refines_only`: uses fast effort for any task. REQUIRES: a
-/// budget.
+/// (fast effort is not run if refinement needs 1.5 times the budget for an error at most 15 % smaller, or 1.3 times for
+/// the same error); the result depends only on the results of `run`. The search ends when the mesh uses at least 99 %
+/// of a budget (97 % after some runs), or when two numbers 0.2 % apart (0.5 % for a few hundred triangles) are on both
+/// sides of the budget: the number of triangles jumps there, for example because many samples have the same error. If
+/// then a tenth of a few hundred triangles is unused, half of the budget is also tried, which may find a better mesh by
+/// chance. Above fast effort, the search also ends when options.is_time_up requests it, with the best mesh so far.
+/// There are at most kMostRuns runs with the whole effort, mostly two or three, or kMostRunsFromLeast if the search
+/// starts at the least mesh. Memory: the best mesh so far in addition to a run. Progress is that of one pass, "search".
+/// Fails like `run`, and with kUsage, which names the least sufficient budget, if the least mesh exceeds a budget. A
+/// bound that cannot be satisfied (kPromise) only ends the search below it. `refines_only`: uses fast effort for any
+/// task. REQUIRES: a budget.
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task, bool refines_only = false);
 
 inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;

@@ -20,7 +20,7 @@ constexpr double kRise = 1.5;       // the bound in a run rises at most by this 
 
 /// Refined triangles relative to the budget. If there are fewer, fast effort might be better than the search.
 constexpr double kLeastRefined = 1.5;
-constexpr double kFarRise = 1.15;  // if the bound rises further, the refined triangles are counted again
+constexpr double kFarRise = 1.15;  // if the error is larger than the counted one by more, triangles are counted again
 
 /// Triangles that remain after repair, relative to those after removal: with free vertices, and on samples.
 constexpr double kRepairedFree = 0.53, kRepairedOnSamples = 0.67;
@@ -40,7 +40,7 @@ class RisingSearch {
       const pieces::MeshSize size{made->mesh.vertex_count(), made->mesh.triangle_count()};
       const double used = budget_.used(size);
       if (used <= 1 && used >= kNearlyFull) {
-        if (made->judged_max_error > kFarRise * number) {
+        if (made->judged_max_error > kFarRise * counted_) {
           SCARP_TRY(const double refined, look(number_.towards(made->judged_max_error), true));
           if (refined < kLeastRefined / kFarRise) break;
         }
@@ -68,6 +68,7 @@ class RisingSearch {
     std::optional<std::pair<double, double>> last;
     for (int i = 0; i < kMostLooks && number > lowest_; ++i) {
       SCARP_TRY(const double refined, look(number_.towards(number), true));
+      counted_ = number;
       const double here = std::log(number),
                    used = std::log(expected_share(options_, task_.traits, triangles_, task_.samples) * refined);
       if (last && last->first != here) power_ = std::clamp((used - last->second) / (last->first - here), 0.3, 20.0);
@@ -134,6 +135,7 @@ class RisingSearch {
   pieces::Budget budget_;
   SearchProgress progress_;
   double highest_ = 0, lowest_ = 0;  // limits of useful errors
+  double counted_ = 0;               // the last error whose refined triangles were counted
   double power_ = 1.6;               // triangles ~ error^-power
   std::uint64_t triangles_ = 0;      // number in the last run whose size alone matters
   Pass others_{"search"};
